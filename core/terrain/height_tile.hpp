@@ -1,0 +1,45 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace ridgeline {
+
+/// Where the posts of a raster stand. Posts are points, not areas.
+/// Frame: WGS 84 latitude and longitude. Row 0 is the SOUTH row, column 0 the WEST column.
+struct PostGrid {
+  double south_deg = 0;             ///< latitude of row 0
+  double west_deg = 0;              ///< longitude of column 0, -180 <= west < 180
+  double latitude_step_deg = 0;     ///< > 0
+  double longitude_step_deg = 0;    ///< > 0
+  int rows = 0;
+  int columns = 0;
+
+  [[nodiscard]] double north_deg() const { return south_deg + (rows - 1) * latitude_step_deg; }
+  [[nodiscard]] double east_deg() const { return west_deg + (columns - 1) * longitude_step_deg; }
+};
+
+/// How the bytes of a tile are laid out.
+enum class TileLayout : std::uint8_t {
+  hgt_int16_be,   ///< rows from north to south, big-endian int16, -32768 void
+  dted,           ///< DTED columns from west to east, each from south to north, sign-magnitude, -32767 void
+  float32_rows,   ///< rows from SOUTH to north, host float32, NaN void (rasters a desktop reader has decoded)
+};
+
+/// The unknown height.
+/// A post without data is NaN on this side of the reader; nothing turns it into a number.
+/// A view of one raw tile: georeference plus bytes that stay where they are (a mapped file).
+/// Owner: views `bytes`; whoever mapped the file keeps it alive.
+struct HeightTile {
+  PostGrid grid;
+  TileLayout layout = TileLayout::hgt_int16_be;
+  std::span<const std::byte> bytes;      ///< the whole file, header included
+};
+
+/// Reads `out.size()` posts of row `row` (0 = south) from column `column` eastwards into `out`.
+/// Units: m above the tile's vertical datum (MSL for SRTM and DTED); NaN = void.
+/// Domain: row and columns inside the grid, else RL_ASSERT.
+/// Cost: O(out.size()); no allocation.
+void read_posts(const HeightTile& tile, int row, int column, std::span<float> out);
+
+}  // namespace ridgeline
