@@ -1,0 +1,126 @@
+#include "core/render/frame_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ridgeline {
+namespace {
+
+// Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
+constexpr double float_angle_rad = 1.5e-6;
+constexpr double float_height_ratio = 1.8e-7;
+constexpr double node_placement_px = 0.005;
+constexpr double witness_use = 0.995;      ///< keeps the witness test's own rounding inside
+constexpr double nodes_per_witness = 1.3;  ///< spacing over witness radius; sqrt(2) is the limit
+constexpr double residual_share = 0.25;
+
+float f(double value) { return static_cast<float>(value); }
+
+glm::vec4 vec4_of(const glm::dvec3& v, double w) { return {f(v.x), f(v.y), f(v.z), f(w)}; }
+
+/// Longest step for which a straight exit stays within half a post of the true track.
+double largest_step_m(const GroundMap& map, const WindowGrid& window) {
+  const double range2 = map.range_m * map.range_m;
+  double bend = 0;  // posts per m², largest sum of second derivatives over the range
+  const auto& a = map.latitude_deg;
+  const auto& b = map.longitude_deg;
+  const double north = 2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) +
+                       20 * std::abs(a[4]) + 2 * std::abs(a[5]) + 6 * std::abs(a[6]) +
+                       12 * std::abs(a[7]) + 20 * std::abs(a[8]) + 12 * std::abs(a[9]) +
+                       20 * std::abs(a[10]);
+  const double east = 2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) +
+                      20 * std::abs(b[4]) + 6 * std::abs(b[5]) + 12 * std::abs(b[6]) +
+                      20 * std::abs(b[7]) + 20 * std::abs(b[8]);
+  bend = std::max(north / window.latitude_step_deg, east / window.longitude_step_deg) / range2;
+  return std::sqrt(2.0 * 0.5 / std::max(bend, 1e-12));
+}
+
+}  // namespace
+
+Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
+                                 double eye_over_base_m, double clearance_m) {
+  const double edge = std::cos(camera.half_diagonal_rad(0.0));
+  const double px_per_rad = std::max(camera.fx, camera.fy) / (edge * edge);
+  ErrorBudget budget;
+  budget.epsilon_px = epsilon_px;
+  budget.geometry_px =
+      node_placement_px +
+      px_per_rad * (map.error_rad + float_angle_rad +
+                    float_height_ratio * std::abs(eye_over_base_m) / std::max(clearance_m, 0.05));
+  budget.witness_px = witness_use * (epsilon_px - budget.geometry_px);
+  if (!(budget.witness_px > 0.5 * epsilon_px)) return Fault::error_bound_out_of_range;
+  budget.spacing_px = nodes_per_witness * budget.witness_px;
+  budget.residual_rad =
+      residual_share * budget.witness_px / std::max(camera.fx, camera.fy);
+  return budget;
+}
+
+FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
+                         const PolarGrid& grid, const ErrorBudget& budget,
+                         const WindowGrid& window, const WindowSummary& summary,
+                         double base_height_m) {
+  FrameBlocks blocks{};
+  auto& b = blocks.frame;
+  const glm::dmat3& axes = camera.enu_from_camera.columns;
+  b.ray_dx = vec4_of(axes[0] / camera.fx, camera.width_px);
+  b.ray_dy = vec4_of(axes[1] / camera.fy, camera.height_px);
+  b.ray_origin = vec4_of(camera.ray(0.5, 0.5).xyz, map.range_m);
+  double east_deg = frame.eye.longitude_deg - window.west_deg;
+  east_deg -= 360.0 * std::floor(east_deg / 360.0);
+  const double x = east_deg / window.longitude_step_deg;
+  const double y = (frame.eye.latitude_deg - window.south_deg) / window.latitude_step_deg;
+  const double eye_over_base_m = frame.eye.height_m - base_height_m;
+  const float high = f(eye_over_base_m);
+  b.eye = {f(x - std::floor(x)), f(y - std::floor(y)), high,
+           f(eye_over_base_m - static_cast<double>(high))};
+  b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius),
+             f(base_height_m), f(frame.eye.height_m)};
+  b.heights = {f(summary.highest_m - base_height_m), f(summary.lowest_m - base_height_m),
+               f(limits::top_level), f(largest_step_m(map, window))};
+  const double witness = grid.used ? budget.witness_px / grid.spacing_px : 0.0;
+  b.tolerance = {f(witness), f(budget.residual_rad), f(1.0 / map.range_m), 0.0f};
+  b.window = {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), window.columns,
+              window.rows};
+  for (int k = 0; k < 11; ++k) {
+    b.latitude[k / 4][k % 4] = f(map.latitude_deg[k] / window.latitude_step_deg);
+  }
+  for (int k = 0; k < 9; ++k) {
+    b.longitude[k / 4][k % 4] = f(map.longitude_deg[k] / window.longitude_step_deg);
+  }
+  auto& g = blocks.grid;
+  g.grid = {grid.plane_count, grid.row_count, grid.used ? 1 : 0, 0};
+  if (!grid.used) return blocks;
+  const double segments = limits::grid_segments;
+  g.azimuth = {f(grid.azimuth_start_rad), f(grid.azimuth_span_rad),
+               f(segments / grid.azimuth_span_rad), grid.full_circle ? 1.0f : 0.0f};
+  g.slope = {f(grid.slope_low), f(grid.slope_high),
+             f(segments / (grid.slope_high - grid.slope_low)), 0.0f};
+  for (int k = 0; k < limits::grid_segments; ++k) {
+    g.planes[k] = {f(grid.planes[k].first_index), f(grid.planes[k].density), 0, 0};
+    g.rows[k] = {f(grid.rows[k].first_index), f(grid.rows[k].density), 0, 0};
+  }
+  return blocks;
+}
+
+std::int64_t fill_grid_tables(const Camera& camera, const GroundMap& map, const PolarGrid& grid,
+                              std::span<PlaneRecord> planes, std::span<SlopeRecord> slopes) {
+  std::int64_t nodes = 0;
+  for (int i = 0; i < grid.plane_count; ++i) {
+    const double azimuth = grid.plane_azimuth_rad(i);
+    const double s = std::sin(azimuth), c = std::cos(azimuth);
+    const RowRange rows = visible_rows(camera, grid, azimuth);
+    planes[i].direction = {f(s), f(c),
+                           f(map.inverse_meridian_radius * c * c +
+                             map.inverse_prime_vertical_radius * s * s),
+                           0.0f};
+    planes[i].rows = {rows.first, rows.last, 0, 0};
+    nodes += std::max(0, rows.last - rows.first + 1);
+  }
+  for (int j = 0; j < grid.row_count; ++j) {
+    const double slope = grid.row_slope(j);
+    slopes[j] = {f(slope), f(std::sqrt(1.0 + slope * slope))};
+  }
+  return nodes;
+}
+
+}  // namespace ridgeline

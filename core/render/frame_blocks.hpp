@@ -1,0 +1,58 @@
+#pragma once
+
+#include "core/geo/camera.hpp"
+#include "core/geo/ground_map.hpp"
+#include "core/geo/polar_grid.hpp"
+#include "core/terrain/terrain_window.hpp"
+#include "shaders/frame_block.h"
+
+namespace ridgeline {
+
+/// One vertical plane of the grid as the sweep reads it (std430).
+struct PlaneRecord {
+  glm::vec4 direction{};  ///< sin, cos of the azimuth, 1/R
+  glm::ivec4 rows{};      ///< first row, last row
+};
+static_assert(sizeof(PlaneRecord) == 32);
+
+/// One row of the grid as the sweep reads it (std430).
+struct SlopeRecord {
+  float slope = 0;
+  float secant = 1;  ///< 1 / cos(elevation)
+};
+static_assert(sizeof(SlopeRecord) == 8);
+
+/// What the error of one frame may be, split by cause. All in pixels.
+struct ErrorBudget {
+  double epsilon_px = 0;   ///< promised: witness + geometry
+  double geometry_px = 0;  ///< ground map, float32 and node placement, at the picture's corner
+  double witness_px = 0;   ///< how far a pixel's witness may be
+  double spacing_px = 0;   ///< node spacing this allows
+  double residual_rad = 0; ///< interpolant's accepted distance from the surface
+};
+
+/// Everything the passes of one frame read. Plain data, made by frame_blocks() in double.
+struct FrameBlocks {
+  shader::FrameBlock frame;
+  shader::GridBlock grid;
+};
+
+/// How far apart nodes may be, and what remains for each cause, for a wanted error.
+/// Units:  px. `eye_over_base_m` and `clearance_m` (distance to the nearest terrain, a lower bound)
+///         set the float32 rounding term: docs/error_bound.md, section 4.
+/// Errors: Fault::error_bound_out_of_range when geometry alone exceeds the wanted error.
+Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
+                                 double eye_over_base_m, double clearance_m);
+
+/// Uniforms of one frame: double until here, float after.
+FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
+                         const PolarGrid& grid, const ErrorBudget& budget,
+                         const WindowGrid& window, const WindowSummary& summary,
+                         double base_height_m);
+
+/// Tables of the grid. Shape: planes.size() >= grid.plane_count, slopes.size() >= grid.row_count.
+/// Result: nodes the sweep will write.
+std::int64_t fill_grid_tables(const Camera& camera, const GroundMap& map, const PolarGrid& grid,
+                              std::span<PlaneRecord> planes, std::span<SlopeRecord> slopes);
+
+}  // namespace ridgeline

@@ -1,0 +1,109 @@
+#include "core/render/gl_object.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ridgeline {
+namespace {
+
+std::size_t bytes_allocated = 0;
+
+Result<GLuint> compile(std::string_view name, GLenum stage, std::string_view source,
+                       ShaderLog log) {
+  const GLuint shader = glCreateShader(stage);
+  const GLchar* text = source.data();
+  const auto length = static_cast<GLint>(source.size());
+  glShaderSource(shader, 1, &text, &length);
+  glCompileShader(shader);
+  GLint compiled = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return shader;
+  std::array<GLchar, 4096> message{};
+  GLsizei count = 0;
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(message.size()), &count, message.data());
+  if (log != nullptr) log(name, {message.data(), static_cast<std::size_t>(count)});
+  glDeleteShader(shader);
+  return Fault::gl_shader;
+}
+
+Result<Program> link(std::string_view name, std::span<const GLuint> shaders, ShaderLog log) {
+  Program program(glCreateProgram());
+  for (const GLuint shader : shaders) glAttachShader(program.name(), shader);
+  glLinkProgram(program.name());
+  for (const GLuint shader : shaders) glDeleteShader(shader);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return program;
+  std::array<GLchar, 4096> message{};
+  GLsizei count = 0;
+  glGetProgramInfoLog(program.name(), static_cast<GLsizei>(message.size()), &count,
+                      message.data());
+  if (log != nullptr) log(name, {message.data(), static_cast<std::size_t>(count)});
+  return Fault::gl_shader;
+}
+
+}  // namespace
+
+void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+void delete_program(GLuint name) { glDeleteProgram(name); }
+void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+
+std::size_t gl_bytes_allocated() { return bytes_allocated; }
+
+Result<Texture> make_texture(GLenum internal_format, int width, int height, int levels,
+                             std::size_t texel_bytes) {
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  Texture texture(name);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glTexStorage2D(GL_TEXTURE_2D, levels, internal_format, width, height);
+  if (glGetError() != GL_NO_ERROR) return Fault::gl_out_of_memory;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  for (int level = 0; level < levels; ++level) {
+    bytes_allocated += static_cast<std::size_t>(std::max(width >> level, 1)) *
+                       static_cast<std::size_t>(std::max(height >> level, 1)) * texel_bytes;
+  }
+  return texture;
+}
+
+Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage) {
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  GLuint name = 0;
+  glGenBuffers(1, &name);
+  Buffer buffer(name);
+  glBindBuffer(target, name);
+  glBufferData(target, static_cast<GLsizeiptr>(size_bytes), nullptr, usage);
+  if (glGetError() != GL_NO_ERROR) return Fault::gl_out_of_memory;
+  bytes_allocated += size_bytes;
+  return buffer;
+}
+
+Result<Program> make_compute_program(std::string_view name, std::string_view source,
+                                     ShaderLog log) {
+  const auto shader = compile(name, GL_COMPUTE_SHADER, source, log);
+  if (!shader) return shader.fault();
+  return link(name, std::array{shader.value()}, log);
+}
+
+Result<Program> make_draw_program(std::string_view name, std::string_view vertex,
+                                  std::string_view fragment, ShaderLog log) {
+  const auto first = compile(name, GL_VERTEX_SHADER, vertex, log);
+  if (!first) return first.fault();
+  const auto second = compile(name, GL_FRAGMENT_SHADER, fragment, log);
+  if (!second) {
+    glDeleteShader(first.value());
+    return second.fault();
+  }
+  return link(name, std::array{first.value(), second.value()}, log);
+}
+
+}  // namespace ridgeline

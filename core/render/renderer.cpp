@@ -1,0 +1,253 @@
+#include "core/render/renderer.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "shaders/full_screen_vert.hpp"
+#include "shaders/pyramid_base_comp.hpp"
+#include "shaders/pyramid_next_comp.hpp"
+#include "shaders/queue_size_comp.hpp"
+#include "shaders/ray_cast_comp.hpp"
+#include "shaders/resolve_comp.hpp"
+#include "shaders/shade_frag.hpp"
+#include "shaders/sweep_comp.hpp"
+
+namespace ridgeline {
+namespace {
+
+constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
+constexpr GLintptr indirect_offset_bytes = 4 * sizeof(std::uint32_t);
+constexpr float sky = 1e30f;
+
+GLuint groups(int count, int size) { return static_cast<GLuint>((count + size - 1) / size); }
+
+void bind_texture(int unit, const Texture& texture) {
+  glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+}
+
+void write_buffer(GLenum target, const Buffer& buffer, const void* data, std::size_t bytes) {
+  glBindBuffer(target, buffer.name());
+  glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+GLint limit(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+/// Takes the value out of a result or hands its fault to the caller.
+template <typename T>
+Status take(Result<T> result, T& target) {
+  if (!result) return result.fault();
+  target = std::move(result).value();
+  return {};
+}
+
+Result<Framebuffer> make_target(const Texture& texture) {
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  Framebuffer target(name);
+  glBindFramebuffer(GL_FRAMEBUFFER, name);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) return Fault::gl_error;
+  return target;
+}
+
+}  // namespace
+
+Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& timer,
+                                ShaderLog log) {
+  const int largest = limit(GL_MAX_TEXTURE_SIZE);
+  if (sizes.window_columns > largest || sizes.window_rows > largest || sizes.planes > largest ||
+      limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS) < 4 || limit(GL_MAX_COMPUTE_IMAGE_UNIFORMS) < 1) {
+    return Fault::gl_limit_too_small;
+  }
+  Renderer renderer;
+  renderer.sizes_ = sizes;
+  if (const Status made = renderer.make_programs(log); !made) return made.fault();
+  if (const Status made = renderer.make_storage(); !made) return made.fault();
+  renderer.timer_.make(timer);
+  return renderer;
+}
+
+Status Renderer::make_programs(ShaderLog log) {
+  struct Entry {
+    Program* program;
+    std::string_view name, source;
+  };
+  for (const Entry& entry : {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
+                             Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
+                             Entry{&sweep_, "sweep", shader::sweep_comp},
+                             Entry{&resolve_, "resolve", shader::resolve_comp},
+                             Entry{&queue_size_, "queue_size", shader::queue_size_comp},
+                             Entry{&ray_cast_, "ray_cast", shader::ray_cast_comp}}) {
+    const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
+    if (!made) return made;
+  }
+  return take(make_draw_program("shade", shader::full_screen_vert, shader::shade_frag, log),
+              shade_);
+}
+
+Status Renderer::make_storage() {
+  const int w = sizes_.window_columns, h = sizes_.window_rows;
+  const auto pixels = static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px;
+  Status s = take(make_texture(GL_R32F, w, h, 1, 4), posts_);
+  if (s) s = take(make_texture(GL_R32F, w / 2, h / 2, limits::top_level, 4), highest_);
+  if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
+  if (s) s = take(make_texture(GL_R32UI, sizes_.width_px, sizes_.height_px, 1, 4), range_);
+  if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
+  if (s) s = take(make_texture(GL_R8, sizes_.width_px, sizes_.height_px, 1, 1), text_);
+  constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
+  if (s) s = take(make_buffer(ubo, sizeof(shader::FrameBlock), GL_DYNAMIC_DRAW), frame_block_);
+  if (s) s = take(make_buffer(ubo, sizeof(shader::GridBlock), GL_DYNAMIC_DRAW), grid_block_);
+  if (s) s = take(make_buffer(ubo, sizeof(shader::StyleBlock), GL_DYNAMIC_DRAW), style_block_);
+  if (s) s = take(make_buffer(ssbo, sizes_.planes * sizeof(PlaneRecord), GL_DYNAMIC_DRAW), planes_);
+  if (s) s = take(make_buffer(ssbo, sizes_.rows * sizeof(SlopeRecord), GL_DYNAMIC_DRAW), slopes_);
+  if (s) s = take(make_buffer(ssbo, pixels * 16, GL_DYNAMIC_COPY), queue_);
+  if (s) s = take(make_buffer(ssbo, counter_bytes, GL_DYNAMIC_READ), counters_);
+  if (s) s = take(make_target(range_), range_target_);
+  if (s) s = take(make_target(colour_), colour_target_);
+  GLuint vertices = 0;
+  glGenVertexArrays(1, &vertices);
+  empty_vertices_ = VertexArray(vertices);
+  return s;
+}
+
+void Renderer::upload_window(std::span<const float> posts) {
+  RL_ASSERT(posts.size() ==
+            static_cast<std::size_t>(sizes_.window_columns) * sizes_.window_rows);
+  bind_texture(shader::posts_unit, posts_);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.window_columns, sizes_.window_rows, GL_RED,
+                  GL_FLOAT, posts.data());
+  bind_texture(shader::highest_unit, highest_);
+  int w = sizes_.window_columns / 2, h = sizes_.window_rows / 2;
+  for (int level = 0; level < limits::top_level; ++level) {
+    glUseProgram(level == 0 ? pyramid_base_.name() : pyramid_next_.name());
+    if (level > 0) glUniform1i(0, level - 1);
+    glBindImageTexture(shader::target_image, highest_.name(), level, GL_FALSE, 0, GL_WRITE_ONLY,
+                       GL_R32F);
+    glDispatchCompute(groups(w, 8), groups(h, 8), 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    w /= 2;
+    h /= 2;
+  }
+}
+
+void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                            std::span<const SlopeRecord> slopes) {
+  constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
+  const std::uint32_t zeros[8] = {};
+  write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
+  write_buffer(ubo, grid_block_, &blocks.grid, sizeof blocks.grid);
+  write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
+  write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
+  write_buffer(ssbo, counters_, zeros, sizeof zeros);
+  glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
+  glBindBufferBase(ubo, shader::grid_block_binding, grid_block_.name());
+  glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
+  glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
+  glBindBufferBase(ssbo, shader::queue_buffer, queue_.name());
+  glBindBufferBase(ssbo, shader::counters_buffer, counters_.name());
+  bind_texture(shader::posts_unit, posts_);
+  bind_texture(shader::highest_unit, highest_);
+  bind_texture(shader::nodes_unit, nodes_);
+
+  timer_.stamp(static_cast<int>(Pass::grid));
+  if (!planes.empty()) {
+    glUseProgram(sweep_.name());
+    glBindImageTexture(shader::target_image, nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       GL_R32F);
+    glDispatchCompute(groups(static_cast<int>(planes.size()), 32), 1, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  timer_.stamp(static_cast<int>(Pass::resolve));
+  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                     GL_R32UI);
+  glUseProgram(resolve_.name());
+  glDispatchCompute(groups(sizes_.width_px, 8), groups(sizes_.height_px, 8), 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  timer_.stamp(static_cast<int>(Pass::ray_cast));
+  glUseProgram(queue_size_.name());
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  glUseProgram(ray_cast_.name());
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counters_.name());
+  glDispatchComputeIndirect(indirect_offset_bytes);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void Renderer::upload_text(std::span<const std::uint8_t> layer) {
+  RL_ASSERT(layer.size() == static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px);
+  bind_texture(shader::text_unit, text_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.width_px, sizes_.height_px, GL_RED,
+                  GL_UNSIGNED_BYTE, layer.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style) {
+  constexpr GLenum ubo = GL_UNIFORM_BUFFER;
+  write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
+  write_buffer(ubo, style_block_, &style, sizeof style);
+  glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
+  glBindBufferBase(ubo, shader::style_block_binding, style_block_.name());
+  bind_texture(shader::posts_unit, posts_);
+  bind_texture(shader::range_unit, range_);
+  bind_texture(shader::text_unit, text_);
+  timer_.stamp(static_cast<int>(Pass::shade));
+  glBindFramebuffer(GL_FRAMEBUFFER, colour_target_.name());
+  glViewport(0, 0, sizes_.width_px, sizes_.height_px);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DITHER);
+  glUseProgram(shade_.name());
+  glBindVertexArray(empty_vertices_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  timer_.stamp(pass_count);
+  glFlush();
+}
+
+void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scratch) {
+  const auto pixels = static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px;
+  RL_ASSERT(range_m.size() == pixels && scratch.size() >= 4 * pixels);
+  glBindFramebuffer(GL_FRAMEBUFFER, range_target_.name());
+  glReadPixels(0, 0, sizes_.width_px, sizes_.height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+               scratch.data());
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float value = std::bit_cast<float>(scratch[4 * i]);
+    range_m[i] = value < 0      ? std::numeric_limits<float>::quiet_NaN()
+                 : value >= sky ? std::numeric_limits<float>::infinity()
+                                : value;
+  }
+}
+
+void Renderer::read_colour(std::span<std::uint8_t> rgba) {
+  const auto row_bytes = static_cast<std::size_t>(sizes_.width_px) * 4;
+  RL_ASSERT(rgba.size() == row_bytes * sizes_.height_px);
+  glBindFramebuffer(GL_FRAMEBUFFER, colour_target_.name());
+  for (int row = 0; row < sizes_.height_px; ++row) {
+    glReadPixels(0, sizes_.height_px - 1 - row, sizes_.width_px, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                 rgba.data() + row_bytes * row);
+  }
+}
+
+RenderCounters Renderer::read_counters() {
+  RenderCounters result;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, counters_.name());
+  const void* data = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, counter_bytes, GL_MAP_READ_BIT);
+  if (data == nullptr) {
+    result.unresolved = 1;  // an unreadable counter is no proof
+    return result;
+  }
+  const auto* counters = static_cast<const std::uint32_t*>(data);
+  result = {counters[0], counters[1]};
+  glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+  return result;
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/render/frame_blocks.hpp"
+#include "core/render/gl_object.hpp"
+#include "core/render/gpu_timer.hpp"
+
+namespace ridgeline {
+
+/// Sizes of everything the renderer owns, fixed at boot.
+struct RenderSizes {
+  int width_px = 0;
+  int height_px = 0;
+  int window_columns = 0;
+  int window_rows = 0;
+  int planes = 0;  ///< capacity of the node texture
+  int rows = 0;
+};
+
+/// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
+struct RenderCounters {
+  std::uint32_t rays_cast = 0;       ///< pixels the ray cast pass answered
+  std::uint32_t unresolved = 0;      ///< marches that met their step limit: the frame is void
+};
+
+/// All GL objects of the module and the passes of one frame. OpenGL ES 3.1, no extension needed.
+/// A context must be current whenever a member is called.
+class Renderer {
+ public:
+  /// Allocates every GL object. Errors: gl_limit_too_small, gl_shader, gl_out_of_memory.
+  static Result<Renderer> make(const RenderSizes& sizes, const TimerFunctions& timer,
+                               ShaderLog log);
+
+  /// Uploads a window and builds its pyramid. Shape: window_rows x window_columns.
+  void upload_window(std::span<const float> posts);
+
+  /// Draws one frame into the renderer's own targets; `nodes` planes of the grid are swept.
+  void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                    std::span<const SlopeRecord> slopes);
+  /// Shades the current range picture into the colour target.
+  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style);
+  /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
+  void upload_text(std::span<const std::uint8_t> layer);
+
+  /// Waits for the frame and reads the range picture, contract form (inf sky, NaN unknown).
+  void read_range(std::span<float> range_m, std::span<std::uint32_t> scratch);
+  /// Waits for the frame and reads 8-bit RGBA rows, top row first.
+  void read_colour(std::span<std::uint8_t> rgba);
+  /// Waits for the frame and reads its counters.
+  [[nodiscard]] RenderCounters read_counters();
+
+  [[nodiscard]] GpuTimer& timer() { return timer_; }
+  [[nodiscard]] const RenderSizes& sizes() const { return sizes_; }
+
+ private:
+  Renderer() = default;
+  Status make_programs(ShaderLog log);
+  Status make_storage();
+
+  RenderSizes sizes_;
+  Program pyramid_base_, pyramid_next_, sweep_, resolve_, queue_size_, ray_cast_, shade_;
+  Texture posts_, highest_, nodes_, range_, colour_, text_;
+  Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, queue_, counters_;
+  Framebuffer range_target_, colour_target_;
+  VertexArray empty_vertices_;
+  GpuTimer timer_;
+};
+
+}  // namespace ridgeline

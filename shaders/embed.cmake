@@ -1,0 +1,25 @@
+# Joins version line, shared block file, libraries and one pass into a C++ string.
+# and has glslang check it: an error is a build error.
+# cmake -DOUTPUT=... -DNAME=... -DSTAGE=comp -DVALIDATOR=... -DPARTS="a;b;c" -P embed.cmake
+set(text "#version 310 es\nprecision highp float;\nprecision highp int;\n")
+set(number 0)
+foreach(part IN LISTS PARTS)
+  file(READ "${part}" body)
+  get_filename_component(file_name "${part}" NAME)
+  if(file_name STREQUAL "frame_block.h")
+    # Constants become macros: ES GLSL takes only literal bindings.
+    string(REGEX REPLACE "RL_CONST\\(([a-z_]+), ([0-9]+)\\);" "#define \\1 \\2" body "${body}")
+  endif()
+  string(APPEND text "#line 1 ${number}\n${body}\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+file(WRITE "${OUTPUT}.glsl" "${text}")
+file(WRITE "${OUTPUT}"
+  "#pragma once\n#include <string_view>\nnamespace ridgeline::shader {\n"
+  "inline constexpr std::string_view ${NAME} = R\"GLSL(${text})GLSL\";\n}\n")
+execute_process(COMMAND "${VALIDATOR}" -S "${STAGE}" "${OUTPUT}.glsl"
+  RESULT_VARIABLE failed OUTPUT_VARIABLE log ERROR_VARIABLE log)
+if(failed)
+  file(REMOVE "${OUTPUT}")
+  message(FATAL_ERROR "${NAME}: files are numbered in order: ${PARTS}\n${log}")
+endif()

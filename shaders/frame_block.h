@@ -1,0 +1,76 @@
+// Read as C++ and as GLSL: every binding and every uniform block of the renderer, written once.
+#ifdef __cplusplus
+#pragma once
+#include <glm/vec4.hpp>
+#define RL_BLOCK(name, number) struct alignas(16) name
+#define RL_CONST(name, number) inline constexpr int name = number
+namespace ridgeline::shader {
+using vec4 = glm::vec4;
+using ivec4 = glm::ivec4;
+#else
+#define RL_BLOCK(name, number) layout(std140, binding = number) uniform name
+// RL_CONST lines become #define lines when the file is embedded (shaders/embed.cmake).
+#endif
+
+RL_CONST(frame_block_binding, 0);
+RL_CONST(grid_block_binding, 1);
+RL_CONST(style_block_binding, 2);
+RL_CONST(segment_count, 64);
+
+// Texture units.
+RL_CONST(posts_unit, 0);
+RL_CONST(highest_unit, 1);
+RL_CONST(lowest_unit, 2);
+RL_CONST(nodes_unit, 3);
+RL_CONST(range_unit, 4);
+RL_CONST(text_unit, 5);
+RL_CONST(geoid_unit, 6);
+
+// Image units.
+RL_CONST(target_image, 0);
+RL_CONST(second_image, 1);
+
+// Shader storage buffers.
+RL_CONST(planes_buffer, 0);
+RL_CONST(slopes_buffer, 1);
+RL_CONST(queue_buffer, 2);
+RL_CONST(counters_buffer, 3);
+
+// One frame: pose, window and ground map. Lengths in m; window coordinates in posts, relative to
+// the post south-west of the eye; heights relative to the window's base height.
+RL_BLOCK(FrameBlock, 0) {
+  vec4 ray_dx;        // xyz: change of the ray per pixel to the right, ENU; w: image width
+  vec4 ray_dy;        // xyz: per pixel downwards; w: image height
+  vec4 ray_origin;    // xyz: ray of the centre of pixel (0, 0); w: display range
+  vec4 eye;           // xy: eye in window posts, 0..1; z + w: eye height over the base, high and low
+  vec4 earth;         // x: 1/M; y: 1/N; z: base height; w: eye height over the ellipsoid
+  vec4 heights;       // x: highest, y: lowest height over the base; z: largest node; w: largest step
+  vec4 tolerance;     // x: witness radius, grid squares; y: residual accepted, rad; z: 1/range; w: unused
+  ivec4 window;       // xy: post south-west of the eye; zw: columns and rows of the window
+  vec4 latitude[3];   // ground map in posts: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
+  vec4 longitude[3];  // 10 11 12 13 | 14 30 31 32 | 50 - - -
+};
+
+// The projected grid of one frame.
+RL_BLOCK(GridBlock, 1) {
+  vec4 azimuth;    // x: start; y: span; z: segments/span; w: 1 when the circle closes
+  vec4 slope;      // x: low; y: high; z: segments/(high - low); w: unused
+  ivec4 grid;      // x: planes; y: rows; z: 1 when the grid is used; w: unused
+  vec4 planes[64]; // x: first index; y: index per rad
+  vec4 rows[64];   // x: first index; y: index per slope
+};
+
+// What the picture looks like.
+RL_BLOCK(StyleBlock, 2) {
+  vec4 sun;        // xyz: direction to the sun, ENU; w: haze per m
+  vec4 legend;     // x: 1 when terrain is drawn; y: 1 when the attitude is valid; zw: eye lat, lon deg
+  vec4 post_step;  // xy: metres per post east and north; zw: window origin of grid lines
+};
+
+#ifdef __cplusplus
+}  // namespace ridgeline::shader
+#endif
+#undef RL_BLOCK
+#ifdef __cplusplus
+#undef RL_CONST
+#endif
