@@ -17,6 +17,8 @@ struct PostGrid {
 
   [[nodiscard]] double north_deg() const { return south_deg + (rows - 1) * latitude_step_deg; }
   [[nodiscard]] double east_deg() const { return west_deg + (columns - 1) * longitude_step_deg; }
+
+  friend bool operator==(const PostGrid&, const PostGrid&) = default;
 };
 
 /// Every height outside lowest_post_m..highest_post_m is unknown, in every layout. No ground or sea
