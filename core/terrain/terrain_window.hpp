@@ -4,6 +4,7 @@
 
 #include "core/base/result.hpp"
 #include "core/terrain/height_tile.hpp"
+#include "core/terrain/tile_location.hpp"
 
 namespace ridgeline {
 
@@ -18,11 +19,6 @@ struct WindowGrid {
   [[nodiscard]] double longitude_deg(int column) const {
     return west_deg + column * longitude_step_deg;
   }
-};
-
-/// A box of latitude and longitude; west may be below -180 or east above 180, never both far.
-struct GeoBox {
-  double south_deg = 0, west_deg = 0, north_deg = 0, east_deg = 0;
 };
 
 /// What the posts of a window mean to the shaders.
