@@ -67,29 +67,53 @@ double cubic(double a, double b, double c, double d, double t) {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-struct Sample {
-  double value;
-  double slope;
+/// The cell that holds a map place, kept off the border, and the place within it.
+struct Cell {
+  int column;
+  int row;
+  double u;
+  double v;
 };
 
-/// Catmull-Rom interpolation of the map; the slope is that of the enclosing cell, rise over run.
-Sample sample(const Field& field, double column, double row) {
+Cell cell_at(const Field& field, double column, double row) {
   column = std::clamp(column, 0.0, field.columns - 1.0);
   row = std::clamp(row, 0.0, field.rows - 1.0);
-  const int c = std::clamp(static_cast<int>(std::floor(column)), 1, field.columns - 3);
-  const int r = std::clamp(static_cast<int>(std::floor(row)), 1, field.rows - 3);
-  const double u = column - c;
-  const double v = row - r;
+  const int c = std::clamp(static_cast<int>(column), 1, field.columns - 3);
+  const int r = std::clamp(static_cast<int>(row), 1, field.rows - 3);
+  return {c, r, column - c, row - r};
+}
+
+/// Catmull-Rom interpolation.
+double smooth_value(const Field& field, const Cell& cell) {
   std::array<double, 4> line{};
   for (int k = 0; k < 4; ++k) {
-    line[k] = cubic(field.at(r - 1 + k, c - 1), field.at(r - 1 + k, c), field.at(r - 1 + k, c + 1),
-                    field.at(r - 1 + k, c + 2), u);
+    const int r = cell.row - 1 + k;
+    const int c = cell.column;
+    line[k] =
+        cubic(field.at(r, c - 1), field.at(r, c), field.at(r, c + 1), field.at(r, c + 2), cell.u);
   }
-  const double east = ((field.at(r, c + 1) - field.at(r, c)) * (1 - v) +
-                       (field.at(r + 1, c + 1) - field.at(r + 1, c)) * v);
-  const double north = line[2] - line[1];
-  return {cubic(line[0], line[1], line[2], line[3], v),
-          std::sqrt(east * east + north * north) / fine_cell_m};
+  return cubic(line[0], line[1], line[2], line[3], cell.v);
+}
+
+double bilinear_value(const Field& field, const Cell& cell) {
+  const int r = cell.row;
+  const int c = cell.column;
+  const double south = field.at(r, c) + (field.at(r, c + 1) - field.at(r, c)) * cell.u;
+  const double north = field.at(r + 1, c) + (field.at(r + 1, c + 1) - field.at(r + 1, c)) * cell.u;
+  return south + (north - south) * cell.v;
+}
+
+/// The slope at every cell from its four neighbours, rise over run; 0 on the border.
+Field slopes(const Field& height_m, double cell_m) {
+  Field field(height_m.rows, height_m.columns);
+  for (int row = 1; row < field.rows - 1; ++row) {
+    for (int column = 1; column < field.columns - 1; ++column) {
+      const double east = height_m.at(row, column + 1) - height_m.at(row, column - 1);
+      const double north = height_m.at(row + 1, column) - height_m.at(row - 1, column);
+      field.at(row, column) = std::sqrt(east * east + north * north) / (2 * cell_m);
+    }
+  }
+  return field;
 }
 
 /// Distance outside the rectangle of the feature with corners rounded by the blend (m), 0 inside.
@@ -125,7 +149,7 @@ double flattened(const FlatFeature& feature, double latitude_deg, double longitu
 const FlatFeature synthetic_airfield = {-48.42878, -123.70745, -0.6, 0.8, 1000, 250, 500, 18};
 const FlatFeature synthetic_lake = {-48.3268, -123.5736, 1, 0, 1300, 500, 900, 92};
 
-SyntheticTerrain::SyntheticTerrain() : height_m_(coarse_rows, coarse_columns) {
+SyntheticTerrain::SyntheticTerrain() : height_m_(coarse_rows, coarse_columns), slope_(0, 0) {
   double cell_m = coarse_cell_m;
   for (int level = 0; level < levels; ++level) {
     if (level > 0) {
@@ -158,6 +182,7 @@ SyntheticTerrain::SyntheticTerrain() : height_m_(coarse_rows, coarse_columns) {
     if (height_m > 0) height_m *= (highest_m + drowned_m) / top_m;
     height_m -= drowned_m;
   }
+  slope_ = slopes(height_m_, fine_cell_m);
 }
 
 double SyntheticTerrain::relief_m(double east_m, double north_m) const {
@@ -169,12 +194,13 @@ double SyntheticTerrain::relief_m(double east_m, double north_m) const {
     warp_east_m += 0.13 * wave_m * gradient_noise(east_m / wave_m, north_m / wave_m, 500 + octave);
     warp_north_m += 0.13 * wave_m * gradient_noise(east_m / wave_m, north_m / wave_m, 510 + octave);
   }
-  const Sample land = sample(height_m_, (east_m + warp_east_m) / fine_cell_m,
-                             (north_m + warp_north_m) / fine_cell_m);
-  if (land.value <= 0) return 0;
-  const double steepness = std::min(1.0, land.slope / 0.6);
+  const Cell cell = cell_at(height_m_, (east_m + warp_east_m) / fine_cell_m,
+                            (north_m + warp_north_m) / fine_cell_m);
+  const double land_m = smooth_value(height_m_, cell);
+  if (land_m <= 0) return 0;
+  const double steepness = std::min(1.0, bilinear_value(slope_, cell) / 0.5);
   const double rock = ridged_noise(east_m / 1100, north_m / 1100, 4, 600) - 0.45;
-  return std::max(0.0, land.value + 140 * steepness * (0.2 + 0.8 * steepness) * rock);
+  return std::max(0.0, land_m + 140 * steepness * (0.2 + 0.8 * steepness) * rock);
 }
 
 double SyntheticTerrain::height_m(double latitude_deg, double longitude_deg) const {

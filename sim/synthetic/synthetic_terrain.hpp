@@ -39,6 +39,7 @@ class SyntheticTerrain {
  private:
   [[nodiscard]] double relief_m(double east_m, double north_m) const;
   Field height_m_;
+  Field slope_;
 };
 
 /// The height of the one shared SyntheticTerrain, made at the first call.
