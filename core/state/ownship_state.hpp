@@ -1,0 +1,116 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "config/bus_icd.hpp"
+#include "core/bus/double_pairs.hpp"
+
+namespace ridgeline {
+
+/// What a value is good for. A stored sample is never `stale` or `reference_unknown`: both depend
+/// on the time and the profile of asking, and are answered by validity_at() and ownship_pose().
+enum class Validity : std::uint8_t {
+  missing,            ///< never received
+  valid,              ///< received, plausible
+  stale,              ///< last good value is older than its limit
+  implausible,        ///< the newest value jumped away from the last good one
+  invalid,            ///< the newest value was not finite or out of range
+  reference_unknown,  ///< a heading whose reference (true or magnetic) cannot be told
+};
+
+/// Who sent a value.
+struct Source {
+  std::uint8_t interface = 0;  ///< BusFrame::interface
+  std::uint8_t node_id = 0;    ///< sender in the CANaerospace header, 0 where it gives none
+  std::uint16_t channel = 0;   ///< redundancy channel
+  [[nodiscard]] bool operator==(const Source&) const = default;
+};
+
+/// One value with its own age, validity and source. `value` and `time_ns` are those of the last
+/// good frame of this parameter, whatever else was received since.
+struct Sample {
+  double value = 0.0;
+  std::int64_t time_ns = 0;
+  Validity validity = Validity::missing;
+  Source source;
+};
+
+/// A jump that is not believed yet: the newest refused values, as long as they agree with each
+/// other.
+struct JumpCandidate {
+  double value = 0.0;   ///< or the latitude
+  double second = 0.0;  ///< the longitude, for positions
+  std::int64_t time_ns = 0;
+  std::uint8_t count = 0;
+};
+
+/// One coordinate that waits for the other one of its fix.
+struct PendingCoordinate {
+  bool pending = false;
+  double value_deg = 0.0;
+  std::int64_t time_ns = 0;
+  Source source;
+};
+
+/// What is remembered between updates to make consistent fixes of one receiver.
+struct PositionPairing {
+  PendingCoordinate latitude;
+  PendingCoordinate longitude;
+  DoublePairs latitude_halves;
+  DoublePairs longitude_halves;
+};
+
+/// Every frame handed in raises exactly one of the first group; the second counts consequences.
+struct UpdateCounters {
+  std::uint32_t frames = 0;         ///< handed in
+  std::uint32_t decoded = 0;        ///< became a value, or half of one
+  std::uint32_t ignored = 0;        ///< identifier not read by the display
+  std::uint32_t not_data = 0;       ///< error, remote and CAN FD frames
+  std::uint32_t other_channel = 0;  ///< redundancy channel that is not read
+  std::uint32_t other_source = 0;   ///< second sender while the first one is fresh
+  std::uint32_t bad_length = 0;
+  std::uint32_t type_mismatch = 0;  ///< also reserved types and positions coded too coarsely
+  std::uint32_t out_of_range = 0;
+  std::uint32_t not_finite = 0;
+  std::uint32_t implausible = 0;   ///< jumped, refused
+  std::uint32_t out_of_order = 0;  ///< older than what is held
+  std::uint32_t from_future = 0;   ///< later than `now` by more than the tolerance
+
+  std::uint32_t unpaired_halves = 0;  ///< halves of a DOUBLE given up
+  std::uint32_t unpaired_fixes = 0;   ///< latitudes or longitudes given up
+  std::uint32_t jumps_believed = 0;   ///< jumps that persisted
+  std::uint32_t source_changes = 0;   ///< parameters taken over by another sender
+  std::uint32_t clock_resets = 0;     ///< `now` went back: everything was forgotten
+};
+
+/// The ownship as the bus describes it. Trivially copyable; about 2 KiB.
+/// The samples of a latitude and its longitude always belong to one fix: one source, times within
+/// BusProfile::fix_pair_limit_ns; they change together or not at all.
+struct OwnshipState {
+  std::array<Sample, bus_parameter_count> samples{};
+  std::array<JumpCandidate, bus_parameter_count> candidates{};
+  /// Time of the newest refused value (implausible or invalid), per parameter.
+  std::array<std::int64_t, bus_parameter_count> refused_time_ns{};
+  PositionPairing gps;
+  PositionPairing ins;
+  std::int64_t now_ns = 0;  ///< of the last update
+  UpdateCounters counters;
+
+  [[nodiscard]] const Sample& operator[](BusParameter parameter) const {
+    return samples[static_cast<std::size_t>(parameter)];
+  }
+};
+
+/// Age of a sample, never negative. Domain: sample not `missing`.
+[[nodiscard]] constexpr std::int64_t age_ns(const Sample& sample, std::int64_t now_ns) {
+  return now_ns > sample.time_ns ? now_ns - sample.time_ns : 0;
+}
+
+/// Validity of a parameter at `now_ns`: a refused value counts as long as it is younger than
+/// `timeout_ns`, a good one as well; after that the parameter is stale. Only frames of this
+/// parameter keep it alive.
+[[nodiscard]] Validity validity_at(const OwnshipState& state, BusParameter parameter,
+                                   std::int64_t now_ns, std::int64_t timeout_ns);
+
+}  // namespace ridgeline

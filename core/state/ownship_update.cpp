@@ -1,0 +1,283 @@
+#include "core/state/ownship_update.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/bus/canaerospace.hpp"
+#include "core/state/plausibility.hpp"
+
+namespace ridgeline {
+namespace {
+
+void bump(std::uint32_t& counter) {
+  if (counter != std::numeric_limits<std::uint32_t>::max()) ++counter;
+}
+
+std::size_t index_of(BusParameter parameter) {
+  return static_cast<std::size_t>(parameter);
+}
+
+/// A coordinate and the one it makes a fix with, or itself where it makes none.
+struct FixCoordinates {
+  BusParameter latitude;
+  BusParameter longitude;
+};
+constexpr FixCoordinates gps_fix{BusParameter::gps_latitude, BusParameter::gps_longitude};
+constexpr FixCoordinates ins_fix{BusParameter::ins_latitude, BusParameter::ins_longitude};
+
+bool is_of(const FixCoordinates& fix, BusParameter parameter) {
+  return parameter == fix.latitude || parameter == fix.longitude;
+}
+
+Source source_of(const BusFrame& frame) {
+  return {frame.interface, frame.length > 0 ? frame.data[0] : std::uint8_t{0},
+          canas_channel(frame)};
+}
+
+void count_fault(UpdateCounters& counters, Fault fault) {
+  switch (fault) {
+    case Fault::bus_not_data:
+    case Fault::bus_not_classic:
+      return bump(counters.not_data);
+    case Fault::bus_length:
+      return bump(counters.bad_length);
+    case Fault::bus_type_reserved:
+    case Fault::bus_type_mismatch:
+    case Fault::bus_resolution:
+      return bump(counters.type_mismatch);
+    case Fault::bus_value_not_finite:
+      return bump(counters.not_finite);
+    case Fault::bus_value_out_of_range:
+      return bump(counters.out_of_range);
+    default:
+      return bump(counters.ignored);
+  }
+}
+
+/// The newest value of a parameter was refused; the last good one stays, with its own age.
+void refuse(OwnshipState& state, BusParameter parameter, Validity why, std::int64_t time_ns) {
+  Sample& sample = state.samples[index_of(parameter)];
+  // A parameter that never had a good value stays missing: there is nothing to doubt.
+  if (sample.validity != Validity::missing) sample.validity = why;
+  state.refused_time_ns[index_of(parameter)] = time_ns;
+}
+
+/// A position is good or bad as a whole.
+void refuse_value(OwnshipState& state, BusParameter parameter, Validity why, std::int64_t time_ns) {
+  for (const FixCoordinates& fix : {gps_fix, ins_fix}) {
+    if (!is_of(fix, parameter)) continue;
+    PositionPairing& pairing = is_of(gps_fix, parameter) ? state.gps : state.ins;
+    pairing.latitude.pending = false;
+    pairing.longitude.pending = false;
+    refuse(state, fix.latitude, why, time_ns);
+    refuse(state, fix.longitude, why, time_ns);
+    return;
+  }
+  refuse(state, parameter, why, time_ns);
+}
+
+void store(OwnshipState& state, BusParameter parameter, double value, std::int64_t time_ns,
+           const Source& source) {
+  Sample& sample = state.samples[index_of(parameter)];
+  if (sample.validity != Validity::missing && sample.source != source) {
+    bump(state.counters.source_changes);
+  }
+  sample = Sample{value, time_ns, Validity::valid, source};
+  state.candidates[index_of(parameter)] = JumpCandidate{};
+}
+
+/// Whether another sender than the held one may be heard: only once the held value is stale.
+bool source_is_accepted(const OwnshipState& state, BusParameter parameter, const Source& source,
+                        std::int64_t time_ns) {
+  const Sample& held = state[parameter];
+  if (held.validity == Validity::missing || held.source == source) return true;
+  return time_ns - held.time_ns > icd_row(parameter).timeout_ns;
+}
+
+/// Near the vertical, roll and heading may flip by half a turn between two samples of a true
+/// motion.
+bool rule_is_suspended(const OwnshipState& state, BusParameter parameter) {
+  const bool flips = parameter == BusParameter::roll || parameter == BusParameter::heading ||
+                     parameter == BusParameter::true_heading ||
+                     parameter == BusParameter::magnetic_heading;
+  const Sample& pitch = state[BusParameter::pitch];
+  return flips && pitch.validity == Validity::valid &&
+         std::abs(pitch.value) > limits::vertical_pitch_deg;
+}
+
+/// Counts a refused jump; true when it has persisted long enough to be believed.
+bool jump_persists(JumpCandidate& candidate, const JumpRule& rule, double distance, double value,
+                   double second, std::int64_t time_ns) {
+  const bool agrees = candidate.count > 0 && time_ns >= candidate.time_ns &&
+                      is_plausible_move(rule, distance, time_ns - candidate.time_ns);
+  const auto count = static_cast<std::uint8_t>(agrees ? candidate.count + 1 : 1);
+  candidate = JumpCandidate{value, second, time_ns, count};
+  return count >= rule.persist_count;
+}
+
+/// Takes a single value in, unless it jumps.
+void take_value(OwnshipState& state, BusParameter parameter, double value, std::int64_t time_ns,
+                const Source& source) {
+  const Sample& held = state[parameter];
+  const JumpRule rule = jump_rule(parameter);
+  const bool checked = rule.persist_count > 0 && held.validity != Validity::missing &&
+                       !rule_is_suspended(state, parameter);
+  if (checked && !is_plausible_move(rule, value_distance(parameter, held.value, value),
+                                    time_ns - held.time_ns)) {
+    JumpCandidate& candidate = state.candidates[index_of(parameter)];
+    const double distance = value_distance(parameter, candidate.value, value);
+    if (!jump_persists(candidate, rule, distance, value, 0.0, time_ns)) {
+      bump(state.counters.implausible);
+      refuse(state, parameter, Validity::implausible, time_ns);
+      return;
+    }
+    bump(state.counters.jumps_believed);
+  }
+  bump(state.counters.decoded);
+  store(state, parameter, value, time_ns, source);
+}
+
+/// Takes a complete fix in, unless it jumps. Raises the counter of the frame that completed it.
+void take_fix(OwnshipState& state, const FixCoordinates& fix, const PendingCoordinate& latitude,
+              const PendingCoordinate& longitude) {
+  // Receivers without a fix send 0 / 0; nobody flies over that very centimetre.
+  if (latitude.value_deg == 0.0 && longitude.value_deg == 0.0) {
+    bump(state.counters.out_of_range);
+    refuse(state, fix.latitude, Validity::invalid, longitude.time_ns);
+    return refuse(state, fix.longitude, Validity::invalid, longitude.time_ns);
+  }
+  const Sample& held_lat = state[fix.latitude];
+  const Sample& held_lon = state[fix.longitude];
+  const std::int64_t time_ns =
+      latitude.time_ns < longitude.time_ns ? latitude.time_ns : longitude.time_ns;
+  const std::int64_t elapsed_ns = time_ns - held_lat.time_ns;
+  const double distance_m =
+      rough_distance_m(held_lat.value, held_lon.value, latitude.value_deg, longitude.value_deg);
+  if (held_lat.validity != Validity::missing &&
+      !is_plausible_move(position_jump_rule, distance_m, elapsed_ns)) {
+    JumpCandidate& candidate = state.candidates[index_of(fix.latitude)];
+    const double moved_m = rough_distance_m(candidate.value, candidate.second, latitude.value_deg,
+                                            longitude.value_deg);
+    if (!jump_persists(candidate, position_jump_rule, moved_m, latitude.value_deg,
+                       longitude.value_deg, time_ns)) {
+      bump(state.counters.implausible);
+      refuse(state, fix.latitude, Validity::implausible, time_ns);
+      refuse(state, fix.longitude, Validity::implausible, time_ns);
+      return;
+    }
+    bump(state.counters.jumps_believed);
+  }
+  bump(state.counters.decoded);
+  store(state, fix.latitude, latitude.value_deg, latitude.time_ns, latitude.source);
+  store(state, fix.longitude, longitude.value_deg, longitude.time_ns, longitude.source);
+}
+
+/// Takes one coordinate in; the fix follows when its partner is there as well.
+void take_coordinate(OwnshipState& state, const FixCoordinates& fix, BusParameter parameter,
+                     const PendingCoordinate& coordinate, const BusProfile& profile) {
+  PositionPairing& pairing = is_of(gps_fix, parameter) ? state.gps : state.ins;
+  const bool is_latitude = parameter == fix.latitude;
+  PendingCoordinate& mine = is_latitude ? pairing.latitude : pairing.longitude;
+  PendingCoordinate& other = is_latitude ? pairing.longitude : pairing.latitude;
+  if (mine.pending) bump(state.counters.unpaired_fixes);
+  mine = coordinate;
+  mine.pending = true;
+  if (other.pending) {
+    const bool belongs = other.source == mine.source &&
+                         std::abs(mine.time_ns - other.time_ns) <= profile.fix_pair_limit_ns;
+    if (belongs) {
+      mine.pending = false;
+      other.pending = false;
+      return take_fix(state, fix, pairing.latitude, pairing.longitude);
+    }
+    bump(state.counters.unpaired_fixes);
+    other.pending = false;
+  }
+  bump(state.counters.decoded);
+}
+
+/// Joins halves of a DOUBLE where the frame carries one; nothing while the other half is awaited.
+std::optional<Result<double>> whole_value(OwnshipState& state, const DecodedValue& decoded,
+                                          const BusFrame& frame, const BusProfile& profile) {
+  if (decoded.part == ValuePart::whole) return Result<double>(decoded.value);
+  PositionPairing& pairing = is_of(gps_fix, decoded.parameter) ? state.gps : state.ins;
+  const bool is_latitude = decoded.parameter == BusParameter::gps_latitude ||
+                           decoded.parameter == BusParameter::ins_latitude;
+  DoublePairs& halves = is_latitude ? pairing.latitude_halves : pairing.longitude_halves;
+  const DoublePairStep step = paired_double(halves, decoded, frame, profile);
+  halves = step.next;
+  if (step.unpaired) bump(state.counters.unpaired_halves);
+  if (!step.value) return std::nullopt;
+  return checked_value(icd_row(decoded.parameter), *step.value);
+}
+
+void take_decoded(OwnshipState& state, const DecodedValue& decoded, const BusFrame& frame,
+                  const BusProfile& profile) {
+  const std::optional<Result<double>> value = whole_value(state, decoded, frame, profile);
+  if (!value) return bump(state.counters.decoded);
+  if (!value->ok()) {
+    count_fault(state.counters, value->fault());
+    return refuse_value(state, decoded.parameter, Validity::invalid, frame.time_ns);
+  }
+  const Source source = source_of(frame);
+  for (const FixCoordinates& fix : {gps_fix, ins_fix}) {
+    if (!is_of(fix, decoded.parameter)) continue;
+    const PendingCoordinate coordinate{true, value->value(), frame.time_ns, source};
+    return take_coordinate(state, fix, decoded.parameter, coordinate, profile);
+  }
+  take_value(state, decoded.parameter, value->value(), frame.time_ns, source);
+}
+
+void take_frame(OwnshipState& state, const BusFrame& frame, const BusProfile& profile) {
+  UpdateCounters& counters = state.counters;
+  bump(counters.frames);
+  const BusIcdRow* row = icd_row_of(frame);
+  if (row != nullptr) {
+    if (canas_channel(frame) != profile.channel) return bump(counters.other_channel);
+    if (frame.time_ns > state.now_ns + limits::future_tolerance_ns) {
+      return bump(counters.from_future);
+    }
+    const Sample& held = state[row->parameter];
+    if (held.validity != Validity::missing && frame.time_ns < held.time_ns) {
+      return bump(counters.out_of_order);
+    }
+    if (!source_is_accepted(state, row->parameter, source_of(frame), frame.time_ns)) {
+      return bump(counters.other_source);
+    }
+  }
+  const Result<DecodedValue> decoded = decode_canaerospace(frame, profile);
+  if (decoded) return take_decoded(state, decoded.value(), frame, profile);
+  count_fault(counters, decoded.fault());
+  const bool value_is_bad = decoded.fault() == Fault::bus_value_not_finite ||
+                            decoded.fault() == Fault::bus_value_out_of_range;
+  if (value_is_bad) refuse_value(state, row->parameter, Validity::invalid, frame.time_ns);
+}
+
+}  // namespace
+
+OwnshipState update_ownship(const OwnshipState& previous, std::span<const BusFrame> frames,
+                            std::int64_t now_ns, const BusProfile& profile) {
+  OwnshipState state = previous;
+  if (now_ns + limits::future_tolerance_ns < previous.now_ns) {
+    // Ages against a new clock mean nothing: better no data than data of unknown age.
+    state = OwnshipState{};
+    state.counters = previous.counters;
+    bump(state.counters.clock_resets);
+  }
+  state.now_ns = now_ns;
+  for (const BusFrame& frame : frames) take_frame(state, frame, profile);
+  return state;
+}
+
+Validity validity_at(const OwnshipState& state, BusParameter parameter, std::int64_t now_ns,
+                     std::int64_t timeout_ns) {
+  const Sample& sample = state[parameter];
+  if (sample.validity == Validity::missing) return Validity::missing;
+  const std::int64_t refused_ns = state.refused_time_ns[static_cast<std::size_t>(parameter)];
+  const bool refused = sample.validity != Validity::valid;
+  const std::int64_t heard_ns = refused ? refused_ns : sample.time_ns;
+  return now_ns - heard_ns > timeout_ns ? Validity::stale : sample.validity;
+}
+
+}  // namespace ridgeline
