@@ -63,8 +63,8 @@ RL_BLOCK(GridBlock, 1) {
 // What the picture looks like.
 RL_BLOCK(StyleBlock, 2) {
   vec4 sun;        // xyz: direction to the sun, ENU; w: haze per m
-  vec4 legend;     // x: 1 when terrain is drawn; y: 1 when the attitude is valid; zw: eye lat, lon deg
-  vec4 post_step;  // xy: metres per post east and north; zw: window origin of grid lines
+  vec4 legend;     // x: 1 when terrain is drawn; y: 1 when the attitude is valid; z: slope of the sea horizon
+  vec4 post_step;  // xy: metres per post east and north
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,48 @@
+#pragma once
+#include <span>
+
+#include "core/frame/frame_report.hpp"
+#include "core/frame/terrain_keeper.hpp"
+#include "core/render/renderer.hpp"
+
+namespace ridgeline {
+
+/// What stays the same from frame to frame.
+struct FrameSettings {
+  ImageGeometry image;
+  double error_px = limits::default_error_px;
+  double range_m = limits::default_range_m;
+  /// Every pixel by the ray cast pass, no projected grid: the plain max-pyramid ray caster that the
+  /// benchmark compares with.
+  bool cast_every_pixel = false;
+};
+
+/// What one frame is drawn from.
+struct FrameInput {
+  std::int64_t time_ns = 0;
+  GeodeticPosition eye;
+  Attitude attitude;
+  Availability availability;  ///< from the ownship data; removed means eye or attitude are no good
+  bool attitude_valid = true;
+};
+
+/// Tables the pipeline fills anew each frame; static storage, sizes from config/limits.hpp.
+struct FrameTables {
+  std::span<PlaneRecord> planes;     ///< >= RenderSizes::planes
+  std::span<SlopeRecord> slopes;     ///< >= RenderSizes::rows
+  std::span<std::uint8_t> text;      ///< width x height
+};
+
+/// Draws one frame: availability, local frame and camera, terrain window, error budget, projected
+/// grid, error buffer, ray cast, shading. Reads top to bottom; branches only on faults.
+/// Result: the report; the picture is in the renderer's targets. A frame whose terrain cannot be
+///         drawn with a bound is `removed`, and says why.
+FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
+                       TerrainKeeper& terrain, int refused_tiles, const FrameTables& tables,
+                       Renderer& renderer);
+
+/// Counters and times of the frame just drawn. Waits for the GPU. A march that met its step limit
+/// makes the frame void: the report is turned into a removed one and the picture drawn again.
+FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTables& tables);
+
+}  // namespace ridgeline

@@ -1,0 +1,57 @@
+#include "sim/commands/scene_arguments.hpp"
+
+#include <cstdio>
+
+namespace ridgeline::sim {
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("--terrain", arguments.scene.terrain_folder, "folder of raw elevation tiles")
+      ->required();
+  command.add_option("--geoid", arguments.scene.geoid, "geoid file (.pgm, .gtx) or `none`")
+      ->capture_default_str();
+  command.add_option("--size", arguments.size, "picture size, WxH")->capture_default_str();
+  command.add_option("--hfov", arguments.field_of_view_deg, "horizontal field of view, degrees")
+      ->capture_default_str();
+  command.add_option("--error", arguments.scene.settings.error_px, "error bound, pixels")
+      ->capture_default_str();
+  command.add_option("--range", arguments.scene.settings.range_m, "display range, metres")
+      ->capture_default_str();
+  command.add_option("--method", arguments.method, "ridgeline, or raycast (every pixel)")
+      ->check(CLI::IsMember({"ridgeline", "raycast"}))
+      ->capture_default_str();
+}
+
+std::string complete(SceneArguments& arguments) {
+  FrameSettings& settings = arguments.scene.settings;
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
+    return "--size " + arguments.size + ": not of the form WxH";
+  }
+  settings.image = {width, height, arguments.field_of_view_deg};
+  settings.cast_every_pixel = arguments.method == "raycast";
+  if (const auto made = camera({}, settings.image); !made) {
+    return "--size or --hfov: " + std::string(fault_text(made.fault()));
+  }
+  if (!(settings.error_px >= limits::min_error_px && settings.error_px <= limits::max_error_px)) {
+    return "--error: " + std::string(fault_text(Fault::error_bound_out_of_range)) + ", " +
+           std::to_string(limits::min_error_px) + " to " + std::to_string(limits::max_error_px);
+  }
+  if (!(settings.range_m >= limits::min_range_m && settings.range_m <= limits::max_range_m)) {
+    return "--range: " + std::string(fault_text(Fault::range_out_of_range));
+  }
+  return {};
+}
+
+int fail(int status, const std::string& message) {
+  std::fprintf(stderr, "ridgeline: %s\n", message.c_str());
+  return status;
+}
+
+void tell_problems(Session& session) {
+  for (const std::string& message : session.new_problems()) {
+    std::fprintf(stderr, "ridgeline: %s\n", message.c_str());
+  }
+}
+
+}  // namespace ridgeline::sim

@@ -1,0 +1,28 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "sim/session/session.hpp"
+
+namespace ridgeline::sim {
+
+/// The options that every drawing command takes, as given on the command line.
+struct SceneArguments {
+  SceneOptions scene;
+  std::string size = "1024x800";
+  double field_of_view_deg = 60.0;
+  std::string method = "ridgeline";
+};
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments);
+
+/// Checks and completes the options; an error message, or empty.
+std::string complete(SceneArguments& arguments);
+
+/// Prints "ridgeline: MESSAGE" as one line on standard error and returns `status`.
+int fail(int status, const std::string& message);
+
+/// Prints what went wrong with tiles since the last call, one line each.
+void tell_problems(Session& session);
+
+}  // namespace ridgeline::sim

@@ -1,0 +1,119 @@
+#include "sim/session/session.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+namespace ridgeline::sim {
+namespace {
+
+double now_ms() {
+  const auto time = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+void print_shader_log(std::string_view program, std::string_view log) {
+  std::fprintf(stderr, "shader %.*s: %.*s\n", static_cast<int>(program.size()), program.data(),
+               static_cast<int>(log.size()), log.data());
+}
+
+double lookup(const void* context, double latitude_deg, double longitude_deg) {
+  return undulation_m(*static_cast<const GeoidGrid*>(context), latitude_deg, longitude_deg);
+}
+
+}  // namespace
+
+Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first) {
+  options_ = options;
+  auto folder = TerrainFolder::open(options.terrain_folder, &geotiff_);
+  if (!folder) return {folder.problem().fault, folder.problem().message};
+  folder_ = std::move(folder).value();
+  if (options.geoid != "none") {
+    auto geoid = load_geoid(options.geoid);
+    if (!geoid) return {geoid.problem().fault, geoid.problem().message};
+    geoid_ = std::move(geoid).value();
+  }
+  geoid_grid_ = geoid_.grid();
+  if (!folder_->any_usable()) {
+    const FileProblem& first_problem = folder_->refused().front();
+    return {first_problem.fault, first_problem.message};
+  }
+  const PostSteps steps = finest_steps(
+      select(range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m)));
+  if (!folder_->any_usable()) {
+    return {folder_->refused().front().fault, folder_->refused().front().message};
+  }
+  constexpr double srtm3_deg = 1.0 / 1200.0;  // nothing near: any window will do, all unknown
+  const WindowSize size = window_size(first.latitude_deg, options.settings.range_m,
+                                      steps.latitude_deg > 0 ? steps.latitude_deg : srtm3_deg,
+                                      steps.longitude_deg > 0 ? steps.longitude_deg : srtm3_deg);
+  return open_renderer(size.columns, size.rows);
+}
+
+Outcome Session::open_renderer(int columns, int rows) {
+  auto surface = EglSurface::make();
+  if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
+  surface_ = std::move(surface).value();
+  const ImageGeometry& image = options_.settings.image;
+  const RenderSizes sizes{image.width_px, image.height_px, columns, rows, limits::max_planes / 2,
+                          limits::max_rows};
+  auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
+  if (!renderer) {
+    return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
+  }
+  renderer_ = std::move(renderer).value();
+  const auto pixels = static_cast<std::size_t>(image.width_px) * image.height_px;
+  posts_.resize(static_cast<std::size_t>(columns) * rows);
+  scratch_.resize(2 * static_cast<std::size_t>(limits::max_window_posts));
+  planes_.resize(sizes.planes);
+  slopes_.resize(sizes.rows);
+  text_.resize(pixels);
+  range_words_.resize(4 * pixels);
+  rgba_.resize(4 * pixels);
+  const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
+  terrain_.emplace(*this, geoid, columns, rows, posts_, scratch_);
+  return {};
+}
+
+Picture Session::draw(const FrameInput& input, bool want_pixels) {
+  Picture picture;
+  const FrameTables tables{planes_, slopes_, text_};
+  const double start_ms = now_ms();
+  picture.report = draw_frame(options_.settings, input, *terrain_, refused_count(), tables,
+                              *renderer_);
+  picture.counts = finish_frame(*renderer_, picture.report, tables);
+  picture.cpu_ms = now_ms() - start_ms;
+  if (!want_pixels) return picture;
+  const auto pixels = text_.size();
+  if (picture.report.availability.mode != Mode::removed) {
+    picture.range_m.resize(pixels);
+    renderer_->read_range(picture.range_m, range_words_);
+  }
+  renderer_->read_colour(rgba_);
+  picture.rgb.resize(3 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = rgba_[4 * i + c];
+  }
+  return picture;
+}
+
+std::span<const HeightTile> Session::select(const GeoBox& box) {
+  folder_->select(box);
+  return folder_->tiles();
+}
+
+int Session::refused_count() const { return static_cast<int>(folder_->refused().size()); }
+
+std::vector<std::string> Session::new_problems() {
+  std::vector<std::string> messages;
+  for (; problems_told_ < folder_->refused().size(); ++problems_told_) {
+    messages.push_back(folder_->refused()[problems_told_].message);
+  }
+  return messages;
+}
+
+double Session::geoid_undulation_m(double latitude_deg, double longitude_deg) const {
+  return geoid_.name() == "none" ? 0.0
+                                 : undulation_m(geoid_grid_, latitude_deg, longitude_deg);
+}
+
+}  // namespace ridgeline::sim

@@ -1,0 +1,82 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame/frame_pipeline.hpp"
+#include "platform/egl_surface.hpp"
+#include "platform/geoid_file.hpp"
+#include "platform/terrain_folder.hpp"
+#include "sim/geotiff/geotiff_reader.hpp"
+#include "sim/output/outcome.hpp"
+
+namespace ridgeline::sim {
+
+/// What `pose`, `replay` and `bench` have in common.
+struct SceneOptions {
+  std::string terrain_folder;
+  std::string geoid = "none";  ///< a PGM or GTX file, or `none`
+  FrameSettings settings;
+};
+
+/// One drawn frame, read back.
+struct Picture {
+  FrameReport report;
+  FrameCounts counts;
+  double cpu_ms = 0;               ///< wall time of draw_frame and of waiting for it
+  std::vector<float> range_m;      ///< empty in a removed frame
+  std::vector<std::uint8_t> rgb;
+};
+
+/// The module joined together for the desktop: tiles, geoid, context, renderer, buffers.
+/// Everything is allocated by open(); drawing allocates only what it hands back.
+class Session final : public TerrainPort {
+ public:
+  /// Opens the inputs and sizes the terrain window for an eye near `first`.
+  /// Outcome: the message names the file and what is wrong with it.
+  Outcome open(const SceneOptions& options, const GeodeticPosition& first);
+
+  /// Draws one frame and waits for it.
+  /// `want_pixels`: read range and colour back (not part of cpu_ms).
+  Picture draw(const FrameInput& input, bool want_pixels);
+
+  std::span<const HeightTile> select(const GeoBox& box) override;
+  [[nodiscard]] int refused_count() const override;
+
+  /// Messages about refused tiles that were not reported yet.
+  std::vector<std::string> new_problems();
+  [[nodiscard]] const FrameSettings& settings() const { return options_.settings; }
+  [[nodiscard]] FrameSettings& settings() { return options_.settings; }
+  [[nodiscard]] const std::string& geoid_name() const { return geoid_.name(); }
+  [[nodiscard]] double geoid_undulation_m(double latitude_deg, double longitude_deg) const;
+  [[nodiscard]] std::size_t mapped_bytes() const { return folder_->mapped_bytes(); }
+  [[nodiscard]] const char* driver() const { return surface_->description(); }
+  [[nodiscard]] TerrainKeeper& terrain() { return *terrain_; }
+
+ private:
+  Outcome open_renderer(int columns, int rows);
+
+  SceneOptions options_;
+  GeotiffReader geotiff_;
+  std::optional<TerrainFolder> folder_;
+  GeoidFile geoid_;
+  GeoidGrid geoid_grid_;
+  std::optional<EglSurface> surface_;
+  std::optional<Renderer> renderer_;
+  std::optional<TerrainKeeper> terrain_;
+  std::vector<float> posts_, scratch_;
+  std::vector<PlaneRecord> planes_;
+  std::vector<SlopeRecord> slopes_;
+  std::vector<std::uint8_t> text_;
+  std::vector<std::uint32_t> range_words_;
+  std::vector<std::uint8_t> rgba_;
+  std::size_t problems_told_ = 0;
+};
+
+/// Writes `N.json`, `N_range.npy` (unless removed) and `N_color.png` of contract section 3.
+Outcome write_dump(const std::string& folder, int index, const Picture& picture,
+                   const std::string& geoid_name);
+
+}  // namespace ridgeline::sim
