@@ -30,7 +30,8 @@ struct PostAxis {
 ///         posts beyond the poles, other bands or types, heights not in metres, or more than
 ///         2^28 posts: Fault::tile_unsupported. A file that is no GeoTIFF, or whose directory is
 ///         damaged: Fault::tile_header_corrupt; damaged pixels: Fault::tile_record_corrupt.
-///         Messages end with what GDAL said; nothing is printed.
+///         Messages end with what GDAL said; nothing is printed. The format has no checksum of its
+///         own: damage that still decodes is not found.
 class GeotiffReader final : public TileReader {
  public:
   GeotiffReader();
