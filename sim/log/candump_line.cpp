@@ -54,7 +54,7 @@ std::optional<std::uint32_t> hex_number(std::string_view text) {
 
 /// "sec.frac" as nanoseconds; exact, without a detour over floating point.
 std::optional<std::int64_t> time_ns_of(std::string_view text) {
-  constexpr std::size_t most_second_digits = 10;  // 9 999 999 999 s in ns still fit an int64, too
+  constexpr std::size_t most_second_digits = 10;  // last_second has as many
   constexpr int fraction_digits = 9;
   std::int64_t seconds = 0;
   std::size_t at = 0;
