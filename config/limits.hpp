@@ -6,8 +6,8 @@ namespace ridgeline::limits {
 // --- domain of a pose (contract: any roll, pitch, heading; field of view 10..120 degrees) ---
 inline constexpr double min_field_of_view_deg = 10.0;
 inline constexpr double max_field_of_view_deg = 120.0;
-inline constexpr double min_eye_height_m = -600.0;      ///< HAE; the Dead Sea shore is at -430 m MSL
-inline constexpr double max_eye_height_m = 20'500.0;    ///< HAE
+inline constexpr double min_eye_height_m = -600.0;    ///< HAE; the Dead Sea shore is at -430 m MSL
+inline constexpr double max_eye_height_m = 20'500.0;  ///< HAE
 inline constexpr double min_range_m = 1'000.0;
 inline constexpr double max_range_m = 200'000.0;
 inline constexpr double default_range_m = 100'000.0;
@@ -20,13 +20,13 @@ inline constexpr int max_image_px = 4096;
 // --- terrain ---
 inline constexpr double max_terrain_height_m = 9'000.0;
 inline constexpr double min_terrain_height_m = -12'000.0;
-inline constexpr int window_alignment_posts = 256;      ///< 2^top_level
-inline constexpr int max_window_posts = 8'192;          ///< per side
-inline constexpr int top_level = 8;                     ///< coarsest node spans 2^8 cells
+inline constexpr int window_alignment_posts = 256;  ///< 2^top_level
+inline constexpr int max_window_posts = 8'192;      ///< per side
+inline constexpr int top_level = 8;                 ///< coarsest node spans 2^8 cells
 
 // --- polar grid ---
 inline constexpr int max_planes = 8'192;
 inline constexpr int max_rows = 4'096;
-inline constexpr int grid_segments = 64;                ///< pieces of the plane and row spacing
+inline constexpr int grid_segments = 64;  ///< pieces of the plane and row spacing
 
 }  // namespace ridgeline::limits

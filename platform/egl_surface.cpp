@@ -63,7 +63,9 @@ Result<EglSurface> EglSurface::make() {
   return made;
 }
 
-EglSurface::EglSurface(EglSurface&& other) noexcept { *this = std::move(other); }
+EglSurface::EglSurface(EglSurface&& other) noexcept {
+  *this = std::move(other);
+}
 
 EglSurface& EglSurface::operator=(EglSurface&& other) noexcept {
   if (this != &other) {
@@ -76,7 +78,9 @@ EglSurface& EglSurface::operator=(EglSurface&& other) noexcept {
   return *this;
 }
 
-EglSurface::~EglSurface() { release(); }
+EglSurface::~EglSurface() {
+  release();
+}
 
 void EglSurface::release() {
   if (display_ == nullptr) return;
@@ -95,9 +99,8 @@ TimerFunctions EglSurface::timer_functions() const {
       reinterpret_cast<decltype(functions.gen_queries)>(eglGetProcAddress("glGenQueriesEXT"));
   functions.query_counter =
       reinterpret_cast<decltype(functions.query_counter)>(eglGetProcAddress("glQueryCounterEXT"));
-  functions.get_query_object_ui64 =
-      reinterpret_cast<decltype(functions.get_query_object_ui64)>(
-          eglGetProcAddress("glGetQueryObjectui64vEXT"));
+  functions.get_query_object_ui64 = reinterpret_cast<decltype(functions.get_query_object_ui64)>(
+      eglGetProcAddress("glGetQueryObjectui64vEXT"));
   return functions;
 }
 

@@ -6,12 +6,15 @@
 // docs/commands.md.
 int main(int argc, char** argv) {
   using namespace ridgeline::sim;
-  CLI::App program{"Ridgeline: synthetic vision from raw elevation data with a proven error bound.\n"
-                   "NOT CERTIFIED. Supplemental only. Not a terrain warning system."};
+  CLI::App program{
+      "Ridgeline: synthetic vision from raw elevation data with a proven error bound.\n"
+      "NOT CERTIFIED. Supplemental only. Not a terrain warning system."};
   program.name("ridgeline");
   program.require_subcommand(1);
   int status = done;
   add_pose_command(program, status);
+  add_replay_command(program, status);
+  add_import_command(program, status);
   add_make_demo_command(program, status);
   try {
     program.parse(argc, argv);

@@ -14,5 +14,6 @@ void install_safe_state_hook(SafeStateHook hook);
 }  // namespace ridgeline
 
 /// Programmer error, checked in every build. Bus, file and GPIO input may never reach one.
-#define RL_ASSERT(expression) \
-  ((expression) ? static_cast<void>(0) : ::ridgeline::enter_safe_state(#expression, __FILE__, __LINE__))
+#define RL_ASSERT(expression)          \
+  ((expression) ? static_cast<void>(0) \
+                : ::ridgeline::enter_safe_state(#expression, __FILE__, __LINE__))

@@ -11,7 +11,8 @@ enum class Fault : std::uint16_t {
 #undef RL_FAULT
 };
 
-/// How far a fault reaches: a note changes nothing, a caution degrades, a fatal one ends the program.
+/// How far a fault reaches: a note changes nothing, a caution degrades, a fatal one ends the
+/// program.
 enum class Severity : std::uint8_t { note, caution, fatal };
 
 /// The stable identifier of a fault, as written in reports.

@@ -12,7 +12,7 @@ namespace ridgeline {
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : value_(std::move(value)) {}                    // NOLINT(google-explicit-constructor)
+  Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
   Result(Fault fault) : fault_(fault) { RL_ASSERT(fault != Fault::none); }  // NOLINT
 
   [[nodiscard]] bool ok() const { return value_.has_value(); }

@@ -1,13 +1,13 @@
 #pragma once
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 
 namespace ridgeline {
 
-struct Ecef {};    ///< Earth-centred, Earth-fixed: x to 0°N 0°E, z to the north pole
-struct Enu {};     ///< local level frame at the eye: x east, y north, z up along the ellipsoid normal
+struct Ecef {};  ///< Earth-centred, Earth-fixed: x to 0°N 0°E, z to the north pole
+struct Enu {};   ///< local level frame at the eye: x east, y north, z up along the ellipsoid normal
 struct CameraAxes {};  ///< x right, y down, z forward
 
 /// A vector in a named frame; a vector of another frame does not convert to it.

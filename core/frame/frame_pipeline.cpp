@@ -8,9 +8,9 @@
 namespace ridgeline {
 namespace {
 
-constexpr double rebase_px = 0.1;          ///< float32 height rounding that is worth a refill
+constexpr double rebase_px = 0.1;             ///< float32 height rounding that is worth a refill
 constexpr double most_nodes_per_pixel = 4.0;  ///< above this, casting every pixel is cheaper
-constexpr double bound_growth = 1.5;       ///< step by which a bound that cannot be met is raised
+constexpr double bound_growth = 1.5;  ///< step by which a bound that cannot be met is raised
 
 /// The smallest bound not below the wanted one that this pose allows.
 Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& camera,
@@ -82,9 +82,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   // Ground map and error budget.
   const auto map = ground_map(report.local, report.range_m);
   bool refilled = report.window_loaded;
-  const auto budget = map ? honest_budget(settings, report.camera, map.value(), terrain,
-                                          input.eye, refilled)
-                          : Result<ErrorBudget>(map.fault());
+  const auto budget =
+      map ? honest_budget(settings, report.camera, map.value(), terrain, input.eye, refilled)
+          : Result<ErrorBudget>(map.fault());
   if (refilled) renderer.upload_window(terrain.posts());
   report.window_loaded = refilled;
   if (!budget) return removed(report, Reason::no_bound);
@@ -130,8 +130,7 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
   if (report.availability.mode == Mode::removed) return counts;
   counts.counters = renderer.read_counters();
   counts.pass_ms = renderer.timer().pass_ms();
-  const double pixels =
-      static_cast<double>(renderer.sizes().width_px) * renderer.sizes().height_px;
+  const double pixels = static_cast<double>(renderer.sizes().width_px) * renderer.sizes().height_px;
   counts.ray_cast_share = counts.counters.rays_cast / pixels;
   if (counts.counters.unresolved > 0) {
     add_reason(report.availability, Reason::no_bound);

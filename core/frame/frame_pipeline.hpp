@@ -28,9 +28,9 @@ struct FrameInput {
 
 /// Tables the pipeline fills anew each frame; static storage, sizes from config/limits.hpp.
 struct FrameTables {
-  std::span<PlaneRecord> planes;     ///< >= RenderSizes::planes
-  std::span<SlopeRecord> slopes;     ///< >= RenderSizes::rows
-  std::span<std::uint8_t> text;      ///< width x height
+  std::span<PlaneRecord> planes;  ///< >= RenderSizes::planes
+  std::span<SlopeRecord> slopes;  ///< >= RenderSizes::rows
+  std::span<std::uint8_t> text;   ///< width x height
 };
 
 /// Draws one frame: availability, local frame and camera, terrain window, error budget, projected

@@ -14,14 +14,14 @@ namespace ridgeline {
 struct FrameReport {
   std::int64_t time_ns = 0;
   Availability availability;
-  LocalFrame local;              ///< meaningful unless no position was given
+  LocalFrame local;  ///< meaningful unless no position was given
   Camera camera;
-  double range_m = 0;            ///< display range of this frame
-  double bound_px = 0;           ///< 0 in a removed frame, which has none
+  double range_m = 0;   ///< display range of this frame
+  double bound_px = 0;  ///< 0 in a removed frame, which has none
   ErrorBudget budget;
-  int planes = 0, rows = 0;      ///< of the projected grid; 0 when every pixel was ray cast
+  int planes = 0, rows = 0;  ///< of the projected grid; 0 when every pixel was ray cast
   std::int64_t nodes = 0;
-  bool window_loaded = false;    ///< the terrain window was filled anew for this frame
+  bool window_loaded = false;  ///< the terrain window was filled anew for this frame
   WindowSummary window;
 };
 
@@ -29,7 +29,7 @@ struct FrameReport {
 struct FrameCounts {
   RenderCounters counters;
   std::array<double, pass_count> pass_ms{};
-  double ray_cast_share = 0;     ///< pixels answered by the ray cast pass / all pixels
+  double ray_cast_share = 0;  ///< pixels answered by the ray cast pass / all pixels
 };
 
 }  // namespace ridgeline

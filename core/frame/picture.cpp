@@ -58,7 +58,9 @@ class TextLayer {
   int width_, height_;
 };
 
-float f(double value) { return static_cast<float>(value); }
+float f(double value) {
+  return static_cast<float>(value);
+}
 
 }  // namespace
 
@@ -95,11 +97,9 @@ shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& wind
   return style;
 }
 
-std::span<const std::uint8_t> text_layer(const FrameReport& report,
-                                         std::span<std::uint8_t> layer) {
+std::span<const std::uint8_t> text_layer(const FrameReport& report, std::span<std::uint8_t> layer) {
   const int width = report.camera.width_px, height = report.camera.height_px;
-  const auto used =
-      layer.first(static_cast<std::size_t>(std::max(width, 0)) * std::max(height, 0));
+  const auto used = layer.first(static_cast<std::size_t>(std::max(width, 0)) * std::max(height, 0));
   TextLayer text(used, width, height);
   const int scale = width >= 640 ? 2 : 1;
   const int step = (glyph_rows + 3) * scale, edge = 4 * scale;

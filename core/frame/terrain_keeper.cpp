@@ -11,9 +11,9 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
 constexpr double least_clearance_m = 0.05;
-constexpr int window_margin_posts = 4;      ///< posts beyond the range that nodes may look at
+constexpr int window_margin_posts = 4;  ///< posts beyond the range that nodes may look at
 constexpr int clearance_cells = 8;
-constexpr double travel_share = 0.25;       ///< part of the range the eye may move before a refill
+constexpr double travel_share = 0.25;  ///< part of the range the eye may move before a refill
 constexpr double metres_per_degree = 110'574.0;  ///< of latitude at the equator, the smallest
 
 bool inside(const GeoBox& box, const GeoBox& outer) {
@@ -61,8 +61,7 @@ PostSteps finest_steps(std::span<const HeightTile> tiles) {
 
 TerrainKeeper::TerrainKeeper(TerrainPort& port, const GeoidLookup& geoid, int columns, int rows,
                              std::span<float> posts, std::span<float> scratch)
-    : port_(port), geoid_(geoid), columns_(columns), rows_(rows), posts_(posts),
-      scratch_(scratch) {
+    : port_(port), geoid_(geoid), columns_(columns), rows_(rows), posts_(posts), scratch_(scratch) {
   RL_ASSERT(posts.size() == static_cast<std::size_t>(columns) * rows);
   RL_ASSERT(scratch.size() >= 2 * static_cast<std::size_t>(limits::max_window_posts));
 }
@@ -73,8 +72,8 @@ bool TerrainKeeper::follow(const GeodeticPosition& eye, double range_m) {
     if (inside(needed, window_box(grid_, window_margin_posts))) return false;
     // A window that cannot cover the range is moved only when the eye has left its middle.
     const double north = std::abs(eye.latitude_deg - grid_.latitude_deg(rows_ / 2));
-    const double east = std::abs(std::remainder(
-        eye.longitude_deg - grid_.longitude_deg(columns_ / 2), 360.0));
+    const double east =
+        std::abs(std::remainder(eye.longitude_deg - grid_.longitude_deg(columns_ / 2), 360.0));
     const double limit_posts = 0.05 * std::min(rows_, columns_) + 64;
     if (north < limit_posts * grid_.latitude_step_deg &&
         east < limit_posts * grid_.longitude_step_deg) {
@@ -85,14 +84,16 @@ bool TerrainKeeper::follow(const GeodeticPosition& eye, double range_m) {
   return true;
 }
 
-void TerrainKeeper::rebase(const GeodeticPosition& eye) { fill(eye); }
+void TerrainKeeper::rebase(const GeodeticPosition& eye) {
+  fill(eye);
+}
 
 void TerrainKeeper::fill(const GeodeticPosition& eye) {
   // Tiles are chosen by the box the window will have; its steps are those of the tiles, so the
   // choice is made with the widest steps first and once more with the right ones.
   const double half = 0.5 * std::max(columns_, rows_);
-  const PostSteps before = finest_steps(port_.select(range_box(
-      eye.latitude_deg, eye.longitude_deg, limits::min_range_m)));
+  const PostSteps before = finest_steps(
+      port_.select(range_box(eye.latitude_deg, eye.longitude_deg, limits::min_range_m)));
   double step_lat = before.latitude_deg, step_lon = before.longitude_deg;
   if (step_lat == 0) step_lat = step_lon = 1.0 / 1200.0;
   const GeoBox around{eye.latitude_deg - half * step_lat, eye.longitude_deg - half * step_lon,
@@ -129,8 +130,7 @@ double TerrainKeeper::clearance_m(const GeodeticPosition& eye) const {
   double east = eye.longitude_deg - grid_.west_deg;
   east -= 360.0 * std::floor(east / 360.0);
   const auto column = static_cast<int>(east / grid_.longitude_step_deg);
-  const auto row =
-      static_cast<int>((eye.latitude_deg - grid_.south_deg) / grid_.latitude_step_deg);
+  const auto row = static_cast<int>((eye.latitude_deg - grid_.south_deg) / grid_.latitude_step_deg);
   const double post_y = grid_.latitude_step_deg * metres_per_degree;
   const double post_x = grid_.longitude_step_deg * metres_per_degree *
                         std::max(std::cos(eye.latitude_deg * deg), 1e-3);

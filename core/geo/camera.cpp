@@ -10,7 +10,9 @@ namespace ridgeline {
 namespace {
 constexpr double deg = std::numbers::pi / 180.0;
 
-bool inside(double value, double low, double high) { return value >= low && value <= high; }
+bool inside(double value, double low, double high) {
+  return value >= low && value <= high;
+}
 }  // namespace
 
 double Camera::half_diagonal_rad(double margin_px) const {

@@ -14,7 +14,7 @@ constexpr double largest_map_error_rad = 1e-4;
 
 /// A ground point with its exact place.
 struct Sample {
-  double e = 0, n = 0;  ///< E and N over the range
+  double e = 0, n = 0;                         ///< E and N over the range
   double latitude_deg = 0, longitude_deg = 0;  ///< offsets from the eye
 };
 
@@ -112,8 +112,8 @@ double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double al
                   latitude, longitude);
   double worst = 0;
   for (const double height_m : {-500.0, 3'000.0, limits::max_terrain_height_m}) {
-    const Vec3<Ecef> exact = ecef_from_geodetic({frame.eye.latitude_deg + latitude,
-                                                 frame.eye.longitude_deg + longitude, height_m});
+    const Vec3<Ecef> exact = ecef_from_geodetic(
+        {frame.eye.latitude_deg + latitude, frame.eye.longitude_deg + longitude, height_m});
     const Vec3<Enu> exact_enu = frame.ecef_from_enu.inverse() * (exact - frame.eye_ecef);
     const double x = (radius + height_m) * std::sin(theta);
     const double y = (radius + height_m) * std::cos(theta) - radius - frame.eye.height_m;
@@ -148,7 +148,7 @@ Result<GroundMap> ground_map(const LocalFrame& frame, double range_m) {
   Fit<11> latitude_fit(latitude_terms);
   Fit<9> longitude_fit(longitude_terms);
   constexpr int azimuths = 13, radii = 7;
-  for (int i = 0; i < azimuths; ++i) {    // the eastern half: the map is even or odd in E
+  for (int i = 0; i < azimuths; ++i) {  // the eastern half: the map is even or odd in E
     for (int k = 1; k <= radii; ++k) {
       const double g_m = 1.005 * range_m * 0.5 * (1.0 - std::cos(pi * k / radii));
       const Sample sample = exact_sample(frame, range_m, pi * i / (azimuths - 1), g_m);

@@ -41,9 +41,9 @@ Result<LocalFrame> local_frame(const GeodeticPosition& eye) {
   frame.eye_ecef = ecef_from_geodetic(eye);
   const double sp = std::sin(phi), cp = std::cos(phi);
   const double sl = std::sin(lambda), cl = std::cos(lambda);
-  frame.ecef_from_enu.columns = glm::dmat3(glm::dvec3(-sl, cl, 0.0),
-                                           glm::dvec3(-sp * cl, -sp * sl, cp),
-                                           glm::dvec3(cp * cl, cp * sl, sp));
+  frame.ecef_from_enu.columns =
+      glm::dmat3(glm::dvec3(-sl, cl, 0.0), glm::dvec3(-sp * cl, -sp * sl, cp),
+                 glm::dvec3(cp * cl, cp * sl, sp));
   const auto& earth = GeographicLib::Geocentric::WGS84();
   const double a = earth.EquatorialRadius();
   const double e2 = earth.Flattening() * (2.0 - earth.Flattening());

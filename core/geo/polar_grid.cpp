@@ -169,8 +169,7 @@ PolarGrid polar_grid(const Camera& camera, double spacing_px) {
   grid.azimuth_span_rad = grid.full_circle ? 2 * pi : azimuth.high - azimuth.low;
   set_densities(camera, margin_px, grid);
   const int planes = number_segments(grid.planes, grid.azimuth_span_rad / segment_count);
-  const int rows =
-      number_segments(grid.rows, (grid.slope_high - grid.slope_low) / segment_count);
+  const int rows = number_segments(grid.rows, (grid.slope_high - grid.slope_low) / segment_count);
   grid.plane_count = grid.full_circle ? planes : planes + 1;
   grid.row_count = rows + 1;
   grid.used = grid.plane_count <= limits::max_planes && grid.row_count <= limits::max_rows;
@@ -179,19 +178,20 @@ PolarGrid polar_grid(const Camera& camera, double spacing_px) {
 
 RowRange visible_rows(const Camera& camera, const PolarGrid& grid, double azimuth_rad) {
   // Along a plane the direction is linear in the slope, so each side of the picture cuts the
-  // plane in one slope: direction(s) = (sin a, cos a, s); side: n . (camera axes of direction) >= 0.
+  // plane in one slope: direction(s) = (sin a, cos a, s); side: n . (camera axes of direction) >=
+  // 0.
   const double margin_px = 3.0 * grid.spacing_px + 1.0;
   const glm::dmat3 camera_from_enu = glm::transpose(camera.enu_from_camera.columns);
-  const glm::dvec3 base = camera_from_enu * glm::dvec3(std::sin(azimuth_rad),
-                                                       std::cos(azimuth_rad), 0.0);
+  const glm::dvec3 base =
+      camera_from_enu * glm::dvec3(std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
   const glm::dvec3 per_slope = camera_from_enu * glm::dvec3(0.0, 0.0, 1.0);
   const double x = (camera.cx + margin_px) / camera.fx;
   const double x1 = (camera.width_px - camera.cx + margin_px) / camera.fx;
   const double y = (camera.cy + margin_px) / camera.fy;
   const double y1 = (camera.height_px - camera.cy + margin_px) / camera.fy;
   double low = grid.slope_low, high = grid.slope_high;
-  for (const glm::dvec3 side : {glm::dvec3(1, 0, x), glm::dvec3(-1, 0, x1), glm::dvec3(0, 1, y),
-                                glm::dvec3(0, -1, y1)}) {
+  for (const glm::dvec3 side :
+       {glm::dvec3(1, 0, x), glm::dvec3(-1, 0, x1), glm::dvec3(0, 1, y), glm::dvec3(0, -1, y1)}) {
     const double constant = glm::dot(side, base), rate = glm::dot(side, per_slope);
     if (std::abs(rate) < 1e-12) {
       if (constant < 0) return {};

@@ -14,9 +14,13 @@ constexpr double witness_use = 0.995;      ///< keeps the witness test's own rou
 constexpr double nodes_per_witness = 1.3;  ///< spacing over witness radius; sqrt(2) is the limit
 constexpr double residual_share = 0.25;
 
-float f(double value) { return static_cast<float>(value); }
+float f(double value) {
+  return static_cast<float>(value);
+}
 
-glm::vec4 vec4_of(const glm::dvec3& v, double w) { return {f(v.x), f(v.y), f(v.z), f(w)}; }
+glm::vec4 vec4_of(const glm::dvec3& v, double w) {
+  return {f(v.x), f(v.y), f(v.z), f(w)};
+}
 
 /// Longest step for which a straight exit stays within half a post of the true track.
 double largest_step_m(const GroundMap& map, const WindowGrid& window) {
@@ -50,15 +54,13 @@ Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, dou
   budget.witness_px = witness_use * (epsilon_px - budget.geometry_px);
   if (!(budget.witness_px > 0.5 * epsilon_px)) return Fault::error_bound_out_of_range;
   budget.spacing_px = nodes_per_witness * budget.witness_px;
-  budget.residual_rad =
-      residual_share * budget.witness_px / std::max(camera.fx, camera.fy);
+  budget.residual_rad = residual_share * budget.witness_px / std::max(camera.fx, camera.fy);
   return budget;
 }
 
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const ErrorBudget& budget,
-                         const WindowGrid& window, const WindowSummary& summary,
-                         double base_height_m) {
+                         const PolarGrid& grid, const ErrorBudget& budget, const WindowGrid& window,
+                         const WindowSummary& summary, double base_height_m) {
   FrameBlocks blocks{};
   auto& b = blocks.frame;
   const glm::dmat3& axes = camera.enu_from_camera.columns;
@@ -73,8 +75,8 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   const float high = f(eye_over_base_m);
   b.eye = {f(x - std::floor(x)), f(y - std::floor(y)), high,
            f(eye_over_base_m - static_cast<double>(high))};
-  b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius),
-             f(base_height_m), f(frame.eye.height_m)};
+  b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), f(base_height_m),
+             f(frame.eye.height_m)};
   b.heights = {f(summary.highest_m - base_height_m), f(summary.lowest_m - base_height_m),
                f(limits::top_level), f(largest_step_m(map, window))};
   const double witness = grid.used ? budget.witness_px / grid.spacing_px : 0.0;
@@ -109,10 +111,9 @@ std::int64_t fill_grid_tables(const Camera& camera, const GroundMap& map, const 
     const double azimuth = grid.plane_azimuth_rad(i);
     const double s = std::sin(azimuth), c = std::cos(azimuth);
     const RowRange rows = visible_rows(camera, grid, azimuth);
-    planes[i].direction = {f(s), f(c),
-                           f(map.inverse_meridian_radius * c * c +
-                             map.inverse_prime_vertical_radius * s * s),
-                           0.0f};
+    planes[i].direction = {
+        f(s), f(c),
+        f(map.inverse_meridian_radius * c * c + map.inverse_prime_vertical_radius * s * s), 0.0f};
     planes[i].rows = {rows.first, rows.last, 0, 0};
     nodes += std::max(0, rows.last - rows.first + 1);
   }

@@ -24,11 +24,11 @@ static_assert(sizeof(SlopeRecord) == 8);
 
 /// What the error of one frame may be, split by cause. All in pixels.
 struct ErrorBudget {
-  double epsilon_px = 0;   ///< promised: witness + geometry
-  double geometry_px = 0;  ///< ground map, float32 and node placement, at the picture's corner
-  double witness_px = 0;   ///< how far a pixel's witness may be
-  double spacing_px = 0;   ///< node spacing this allows
-  double residual_rad = 0; ///< interpolant's accepted distance from the surface
+  double epsilon_px = 0;    ///< promised: witness + geometry
+  double geometry_px = 0;   ///< ground map, float32 and node placement, at the picture's corner
+  double witness_px = 0;    ///< how far a pixel's witness may be
+  double spacing_px = 0;    ///< node spacing this allows
+  double residual_rad = 0;  ///< interpolant's accepted distance from the surface
 };
 
 /// Everything the passes of one frame read. Plain data, made by frame_blocks() in double.
@@ -46,9 +46,8 @@ Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, dou
 
 /// Uniforms of one frame: double until here, float after.
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const ErrorBudget& budget,
-                         const WindowGrid& window, const WindowSummary& summary,
-                         double base_height_m);
+                         const PolarGrid& grid, const ErrorBudget& budget, const WindowGrid& window,
+                         const WindowSummary& summary, double base_height_m);
 
 /// Tables of the grid. Shape: planes.size() >= grid.plane_count, slopes.size() >= grid.row_count.
 /// Result: nodes the sweep will write.

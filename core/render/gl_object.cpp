@@ -36,21 +36,32 @@ Result<Program> link(std::string_view name, std::span<const GLuint> shaders, Sha
   if (linked == GL_TRUE) return program;
   std::array<GLchar, 4096> message{};
   GLsizei count = 0;
-  glGetProgramInfoLog(program.name(), static_cast<GLsizei>(message.size()), &count,
-                      message.data());
+  glGetProgramInfoLog(program.name(), static_cast<GLsizei>(message.size()), &count, message.data());
   if (log != nullptr) log(name, {message.data(), static_cast<std::size_t>(count)});
   return Fault::gl_shader;
 }
 
 }  // namespace
 
-void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
-void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-void delete_program(GLuint name) { glDeleteProgram(name); }
-void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+void delete_texture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+void delete_buffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+void delete_framebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
+void delete_program(GLuint name) {
+  glDeleteProgram(name);
+}
+void delete_vertex_array(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
 
-std::size_t gl_bytes_allocated() { return bytes_allocated; }
+std::size_t gl_bytes_allocated() {
+  return bytes_allocated;
+}
 
 Result<Texture> make_texture(GLenum internal_format, int width, int height, int levels,
                              std::size_t texel_bytes) {

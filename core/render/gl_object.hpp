@@ -63,8 +63,7 @@ Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage);
 using ShaderLog = void (*)(std::string_view program, std::string_view log);
 
 /// Program of one compute shader. Errors: Fault::gl_shader, after calling `log`.
-Result<Program> make_compute_program(std::string_view name, std::string_view source,
-                                     ShaderLog log);
+Result<Program> make_compute_program(std::string_view name, std::string_view source, ShaderLog log);
 
 /// Program of a vertex and a fragment shader. Errors: Fault::gl_shader, after calling `log`.
 Result<Program> make_draw_program(std::string_view name, std::string_view vertex,

@@ -19,7 +19,9 @@ constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
 constexpr GLintptr indirect_offset_bytes = 4 * sizeof(std::uint32_t);
 constexpr float sky = 1e30f;
 
-GLuint groups(int count, int size) { return static_cast<GLuint>((count + size - 1) / size); }
+GLuint groups(int count, int size) {
+  return static_cast<GLuint>((count + size - 1) / size);
+}
 
 void bind_texture(int unit, const Texture& texture) {
   glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
@@ -116,8 +118,7 @@ Status Renderer::make_storage() {
 }
 
 void Renderer::upload_window(std::span<const float> posts) {
-  RL_ASSERT(posts.size() ==
-            static_cast<std::size_t>(sizes_.window_columns) * sizes_.window_rows);
+  RL_ASSERT(posts.size() == static_cast<std::size_t>(sizes_.window_columns) * sizes_.window_rows);
   bind_texture(shader::posts_unit, posts_);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.window_columns, sizes_.window_rows, GL_RED,
                   GL_FLOAT, posts.data());
@@ -157,14 +158,12 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
   timer_.stamp(static_cast<int>(Pass::grid));
   if (!planes.empty()) {
     glUseProgram(sweep_.name());
-    glBindImageTexture(shader::target_image, nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                       GL_R32F);
+    glBindImageTexture(shader::target_image, nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute(groups(static_cast<int>(planes.size()), 32), 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::resolve));
-  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                     GL_R32UI);
+  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
   glUseProgram(resolve_.name());
   glDispatchCompute(groups(sizes_.width_px, 8), groups(sizes_.height_px, 8), 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -21,8 +21,8 @@ struct RenderSizes {
 
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
-  std::uint32_t rays_cast = 0;       ///< pixels the ray cast pass answered
-  std::uint32_t unresolved = 0;      ///< marches that met their step limit: the frame is void
+  std::uint32_t rays_cast = 0;   ///< pixels the ray cast pass answered
+  std::uint32_t unresolved = 0;  ///< marches that met their step limit: the frame is void
 };
 
 /// All GL objects of the module and the passes of one frame. OpenGL ES 3.1, no extension needed.

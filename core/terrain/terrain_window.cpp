@@ -13,8 +13,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
-constexpr double step_tolerance = 1e-7;    ///< relative difference of two steps that are the same
-constexpr double phase_tolerance = 1e-4;   ///< posts; 1 cm at 3 arc seconds
+constexpr double step_tolerance = 1e-7;   ///< relative difference of two steps that are the same
+constexpr double phase_tolerance = 1e-4;  ///< posts; 1 cm at 3 arc seconds
 constexpr int block_posts = 64;
 constexpr int max_blocks = limits::max_window_posts / block_posts;
 

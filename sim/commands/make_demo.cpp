@@ -1,9 +1,10 @@
+#include "sim/synthetic/make_demo.hpp"
+
 #include <cstdio>
 #include <memory>
 
 #include "sim/commands/commands.hpp"
 #include "sim/commands/scene_arguments.hpp"
-#include "sim/synthetic/make_demo.hpp"
 
 namespace ridgeline::sim {
 

@@ -32,8 +32,8 @@ nlohmann::ordered_json frame_json(const Picture& picture, const std::string& geo
   json["cx"] = camera.cx;
   json["cy"] = camera.cy;
   json["range_m"] = report.range_m;
-  json["bound_px"] = removed ? nlohmann::ordered_json(nullptr)
-                             : nlohmann::ordered_json(report.bound_px);
+  json["bound_px"] =
+      removed ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(report.bound_px);
   json["mode"] = mode_word(report.availability.mode);
   json["reasons"] = nlohmann::ordered_json::array();
   for (const Reason reason : report.availability.reasons) {

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "platform/heap_counter.hpp"
+
 namespace ridgeline::sim {
 namespace {
 
@@ -54,8 +56,8 @@ Outcome Session::open_renderer(int columns, int rows) {
   if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
   surface_ = std::move(surface).value();
   const ImageGeometry& image = options_.settings.image;
-  const RenderSizes sizes{image.width_px, image.height_px, columns, rows, limits::max_planes / 2,
-                          limits::max_rows};
+  const RenderSizes sizes{image.width_px, image.height_px,        columns,
+                          rows,           limits::max_planes / 2, limits::max_rows};
   auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
   if (!renderer) {
     return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
@@ -78,8 +80,8 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
   const double start_ms = now_ms();
-  picture.report = draw_frame(options_.settings, input, *terrain_, refused_count(), tables,
-                              *renderer_);
+  picture.report =
+      draw_frame(options_.settings, input, *terrain_, refused_count(), tables, *renderer_);
   picture.counts = finish_frame(*renderer_, picture.report, tables);
   picture.cpu_ms = now_ms() - start_ms;
   if (!want_pixels) return picture;
@@ -101,7 +103,9 @@ std::span<const HeightTile> Session::select(const GeoBox& box) {
   return folder_->tiles();
 }
 
-int Session::refused_count() const { return static_cast<int>(folder_->refused().size()); }
+int Session::refused_count() const {
+  return static_cast<int>(folder_->refused().size());
+}
 
 std::vector<std::string> Session::new_problems() {
   std::vector<std::string> messages;
@@ -112,8 +116,7 @@ std::vector<std::string> Session::new_problems() {
 }
 
 double Session::geoid_undulation_m(double latitude_deg, double longitude_deg) const {
-  return geoid_.name() == "none" ? 0.0
-                                 : undulation_m(geoid_grid_, latitude_deg, longitude_deg);
+  return geoid_.name() == "none" ? 0.0 : undulation_m(geoid_grid_, latitude_deg, longitude_deg);
 }
 
 }  // namespace ridgeline::sim

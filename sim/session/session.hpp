@@ -25,8 +25,8 @@ struct SceneOptions {
 struct Picture {
   FrameReport report;
   FrameCounts counts;
-  double cpu_ms = 0;               ///< wall time of draw_frame and of waiting for it
-  std::vector<float> range_m;      ///< empty in a removed frame
+  double cpu_ms = 0;           ///< wall time of draw_frame and of waiting for it
+  std::vector<float> range_m;  ///< empty in a removed frame
   std::vector<std::uint8_t> rgb;
 };
 

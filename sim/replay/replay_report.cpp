@@ -1,0 +1,133 @@
+#include "sim/replay/replay_report.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "platform/heap_counter.hpp"
+
+namespace ridgeline::sim {
+namespace {
+
+constexpr const char* pass_names[pass_count] = {"grid", "resolve", "ray_cast", "shade"};
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(share * last + 0.5)];
+}
+
+nlohmann::ordered_json percentiles(const std::vector<double>& values) {
+  return {{"median", percentile(values, 0.5)},
+          {"p99", percentile(values, 0.99)},
+          {"max", percentile(values, 1.0)}};
+}
+
+nlohmann::ordered_json log_json(const CandumpLog& log) {
+  const CandumpStatistics& s = log.statistics;
+  return {{"lines", s.lines},
+          {"data_frames", s.data_frames},
+          {"fd_frames", s.fd_frames},
+          {"remote_frames", s.remote_frames},
+          {"error_frames", s.error_frames},
+          {"xl_frames", s.xl_frames},
+          {"comment_lines", s.comment_lines},
+          {"bad_lines", s.bad_lines},
+          {"lost_frames", s.lost_frames},
+          {"time_reversals", s.time_reversals},
+          {"problems", log.notes.problems},
+          {"interfaces", log.notes.interfaces}};
+}
+
+nlohmann::ordered_json bus_json(const UpdateCounters& c) {
+  return {{"frames", c.frames},
+          {"decoded", c.decoded},
+          {"ignored", c.ignored},
+          {"not_data", c.not_data},
+          {"other_channel", c.other_channel},
+          {"other_source", c.other_source},
+          {"bad_length", c.bad_length},
+          {"type_mismatch", c.type_mismatch},
+          {"out_of_range", c.out_of_range},
+          {"not_finite", c.not_finite},
+          {"implausible", c.implausible},
+          {"out_of_order", c.out_of_order},
+          {"unpaired_halves", c.unpaired_halves},
+          {"unpaired_fixes", c.unpaired_fixes},
+          {"jumps_believed", c.jumps_believed},
+          {"source_changes", c.source_changes},
+          {"clock_resets", c.clock_resets}};
+}
+
+}  // namespace
+
+void ReplayReport::add(int index, const Picture& picture) {
+  const FrameReport& report = picture.report;
+  nlohmann::ordered_json frame;
+  frame["index"] = index;
+  frame["time_s"] = static_cast<double>(report.time_ns) * 1e-9;
+  frame["mode"] = mode_word(report.availability.mode);
+  frame["reasons"] = nlohmann::ordered_json::array();
+  for (const Reason reason : report.availability.reasons) {
+    frame["reasons"].push_back(reason_word(reason));
+    ++reasons_[std::string(reason_word(reason))];
+  }
+  const bool removed = report.availability.mode == Mode::removed;
+  removed_ += removed ? 1 : 0;
+  degraded_ += report.availability.mode == Mode::degraded ? 1 : 0;
+  frame["bound_px"] =
+      removed ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(report.bound_px);
+  frame["range_m"] = report.range_m;
+  frame["cpu_ms"] = picture.cpu_ms;
+  const auto& ms = picture.counts.pass_ms;
+  const double gpu_ms = std::accumulate(ms.begin(), ms.end(), 0.0);
+  frame["gpu_ms"] = gpu_ms > 0 ? nlohmann::ordered_json(gpu_ms) : nlohmann::ordered_json(nullptr);
+  frame["passes"] = nlohmann::ordered_json::array();
+  for (int pass = 0; pass < pass_count && !removed; ++pass) {
+    frame["passes"].push_back({{"name", pass_names[pass]}, {"gpu_ms", ms[pass]}});
+  }
+  frame["ray_cast_share"] = picture.counts.ray_cast_share;
+  frame["planes"] = report.planes;
+  frame["rows"] = report.rows;
+  frame["nodes"] = report.nodes;
+  frame["window_loaded"] = report.window_loaded;
+  frames_.push_back(frame);
+  if (removed) return;
+  cpu_ms_.push_back(picture.cpu_ms);
+  gpu_ms_.push_back(gpu_ms);
+  largest_bound_px_ = std::max(largest_bound_px_, report.bound_px);
+}
+
+double ReplayReport::median_cpu_ms() const {
+  return percentile(cpu_ms_, 0.5);
+}
+
+nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const OwnshipState& state,
+                                              const Session& session,
+                                              const std::string& log_file) const {
+  nlohmann::ordered_json json;
+  json["log"] = log_file;
+  json["labels"] = log.notes.labels;
+  json["driver"] = session.driver();
+  json["geoid"] = session.geoid_name();
+  json["frame_count"] = frames_.size();
+  json["removed_frames"] = removed_;
+  json["degraded_frames"] = degraded_;
+  json["largest_bound_px"] = largest_bound_px_;
+  json["reason_counts"] = reasons_;
+  json["cpu_ms"] = percentiles(cpu_ms_);
+  json["gpu_ms"] = percentiles(gpu_ms_);
+  json["allocations_after_boot"] = heap_allocations_counted();
+  json["heap_bytes"] = mallinfo2().uordblks + mallinfo2().hblkhd;
+  json["gpu_bytes"] = gl_bytes_allocated();
+  json["mapped_bytes"] = session.mapped_bytes();
+  json["bad_lines"] = log.statistics.bad_lines;
+  json["log_lines"] = log_json(log);
+  json["bus"] = bus_json(state.counters);
+  json["frames"] = frames_;
+  return json;
+}
+
+}  // namespace ridgeline::sim
