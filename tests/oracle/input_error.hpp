@@ -8,6 +8,7 @@ namespace ridgeline::oracle {
 /// The desktop program prints it on standard error and exits with status 3.
 class InputError : public std::runtime_error {
  public:
+  explicit InputError(const std::string& line) : std::runtime_error(line) {}
   InputError(const std::string& file, const std::string& fault)
       : std::runtime_error(file + ": " + fault) {}
 };

@@ -160,6 +160,21 @@ bool is_near(const Tile& tile, const std::vector<Neighbourhood>& places) {
          });
 }
 
+/// The files of a folder and of its sub-folders, one level deep, hidden ones left out.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
+  std::error_code fault;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::recursive_directory_iterator it(folder, fault), end; !fault && it != end;
+       it.increment(fault)) {
+    const bool is_hidden = it->path().filename().string().starts_with('.');
+    if (it->is_directory() && (is_hidden || it.depth() > 0)) it.disable_recursion_pending();
+    if (!it->is_directory() && !is_hidden) files.push_back(it->path());
+  }
+  if (fault) throw InputError(folder.string(), "folder cannot be read");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
 
 double west_on_turn(const Tile& tile, double near_deg) {
@@ -279,27 +294,34 @@ double Terrain::must_below_m(double south_deg, double north_deg, double west_deg
 
 Terrain Terrain::load(const std::filesystem::path& folder, Geoid geoid,
                       const std::vector<Neighbourhood>& places) {
-  std::error_code fault;
-  std::vector<std::filesystem::path> files;
-  for (std::filesystem::directory_iterator it(folder, fault), end; !fault && it != end;
-       it.increment(fault)) {
-    if (!it->is_directory()) files.push_back(it->path());
-  }
-  if (fault) throw InputError(folder.string(), "folder cannot be read");
-  std::sort(files.begin(), files.end());
   std::vector<Tile> near;
+  std::optional<Tile> elsewhere;
+  std::vector<std::string> refused;
   float lowest = infinity;
-  for (const std::filesystem::path& file : files) {
-    std::optional<Tile> tile = read_tile(file);
+  for (const std::filesystem::path& file : files_of(folder)) {
+    std::optional<Tile> tile;
+    try {
+      tile = read_tile(file);
+    } catch (const InputError& error) {
+      refused.emplace_back(error.what());
+    }
     if (!tile) continue;
     for (const float post : tile->posts) {
       lowest = std::isnan(post) ? lowest : std::min(lowest, post);
     }
-    if (is_near(*tile, places)) near.push_back(std::move(*tile));
+    if (is_near(*tile, places)) {
+      near.push_back(std::move(*tile));
+    } else if (!elsewhere) {
+      elsewhere = std::move(tile);
+    }
   }
-  if (lowest == infinity) throw InputError(folder.string(), "folder holds no known terrain");
-  if (near.empty()) throw InputError(folder.string(), "holds no terrain tile near the dump's eyes");
-  return {std::move(near), std::move(geoid), static_cast<double>(lowest)};
+  // Far from every tile all ground is unknown; some tile must still say how large its cells are.
+  if (near.empty() && elsewhere) near.push_back(std::move(*elsewhere));
+  if (near.empty() && !refused.empty()) throw InputError(refused.front());
+  if (near.empty()) throw InputError(folder.string(), "folder holds no terrain tile");
+  Terrain terrain(std::move(near), std::move(geoid), static_cast<double>(lowest));
+  terrain.refused_ = std::move(refused);
+  return terrain;
 }
 
 }  // namespace ridgeline::oracle

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "tests/oracle/geoid.hpp"
@@ -60,9 +61,10 @@ class Terrain {
   Terrain(std::vector<Tile> tiles, Geoid geoid,
           double lowest_elsewhere_m = std::numeric_limits<double>::infinity());
 
-  /// Reads every tile of a folder and keeps those near one of `places` (all, if there are none).
-  /// The others still count for the lowest post of the loaded terrain.
-  /// Errors: InputError naming the folder or the file.
+  /// Reads every tile of a folder and of its sub-folders, one level deep, and keeps those near one
+  /// of `places` (all, if there are none). The others still count for the lowest post of the loaded
+  /// terrain. A tile that cannot be read is a missing tile: unknown ground, named by refused().
+  /// Errors: InputError naming the folder, also where none of its tiles can be read.
   [[nodiscard]] static Terrain load(const std::filesystem::path& folder, Geoid geoid,
                                     const std::vector<Neighbourhood>& places);
 
@@ -71,6 +73,8 @@ class Terrain {
   [[nodiscard]] const Geoid& geoid() const { return geoid_; }
   [[nodiscard]] double lowest_post_m() const { return lowest_post_m_; }
   [[nodiscard]] double highest_post_m() const { return highest_post_m_; }
+  /// One line for every tile of the folder that could not be read: the file, then the fault.
+  [[nodiscard]] const std::vector<std::string>& refused() const { return refused_; }
   /// The steepest rise per run between known neighbouring posts.
   [[nodiscard]] double steepest() const { return steepest_; }
 
@@ -90,6 +94,7 @@ class Terrain {
   void summarise(double lowest_elsewhere_m);
 
   std::vector<TerrainTile> tiles_;
+  std::vector<std::string> refused_;
   Geoid geoid_;
   double lowest_post_m_ = 0;
   double highest_post_m_ = 0;

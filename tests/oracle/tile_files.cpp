@@ -77,16 +77,32 @@ Tile dted_header(const std::string& file, const Bytes& bytes) {
   return tile;
 }
 
+struct Corner {
+  double south_deg;
+  double west_deg;
+};
+
+/// The corner in a lower-case name such as `n46e008.hgt` or `n46_e008.srtmgl1.hgt`.
+std::optional<Corner> corner_in_name(std::string name) {
+  if (name.size() > 3 && name[3] == '_') name.erase(3, 1);
+  if (name.size() < 7 || (name.size() > 7 && std::isalnum(static_cast<unsigned char>(name[7])))) {
+    return std::nullopt;
+  }
+  const std::string_view view = name;
+  const int lat = number(view.substr(1, 2));
+  const int lon = number(view.substr(4, 3));
+  const bool sides = (name[0] == 'n' || name[0] == 's') && (name[3] == 'e' || name[3] == 'w');
+  if (!sides || lat < 0 || lat > 90 || lon < 0 || lon > 180) return std::nullopt;
+  const double west = name[3] == 'w' ? -lon : lon;
+  return Corner{static_cast<double>(name[0] == 's' ? -lat : lat), west >= 180 ? west - 360 : west};
+}
+
 }  // namespace
 
 Tile read_hgt(const std::filesystem::path& file) {
   const std::string name = lower(file.filename().string());
-  const int lat = name.size() == 11 ? number(std::string_view(name).substr(1, 2)) : -1;
-  const int lon = name.size() == 11 ? number(std::string_view(name).substr(4, 3)) : -1;
-  if (lat < 0 || lat > 90 || lon < 0 || lon > 180 || (name[0] != 'n' && name[0] != 's') ||
-      (name[3] != 'e' && name[3] != 'w')) {
-    throw InputError(file.string(), "name does not say which tile it is");
-  }
+  const std::optional<Corner> corner = corner_in_name(name);
+  if (!corner) throw InputError(file.string(), "name does not say which tile it is");
   const Bytes bytes = file_bytes(file);
   Tile tile;
   tile.name = file.filename().string();
@@ -97,9 +113,8 @@ Tile read_hgt(const std::filesystem::path& file) {
   }
   if (tile.rows == 0)
     throw InputError(file.string(), "size is neither 1201 nor 3601 posts squared");
-  tile.south_deg = name[0] == 's' ? -lat : lat;
-  tile.west_deg = name[3] == 'w' ? -lon : lon;
-  if (tile.west_deg >= 180) tile.west_deg -= 360;
+  tile.south_deg = corner->south_deg;
+  tile.west_deg = corner->west_deg;
   tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
   tile.posts.resize(bytes.size() / 2);
   std::size_t from = 0;

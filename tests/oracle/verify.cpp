@@ -157,6 +157,7 @@ VerifySummary run_verify(const VerifyOptions& options, std::ostream& progress) {
     terrain.emplace(Terrain::load(options.terrain_folder, std::move(geoid), places));
   }
   Totals totals;
+  if (terrain) totals.summary.refused_tiles = terrain->refused();
   for (const std::filesystem::path& file : files) {
     const Frame frame = read_frame(file);
     const std::size_t violations_before = totals.summary.violations();
@@ -182,6 +183,8 @@ VerifySummary run_verify(const VerifyOptions& options, std::ostream& progress) {
 }
 
 void print_summary(const VerifySummary& summary, std::ostream& out) {
+  for (const std::string& line : summary.refused_tiles)
+    out << "counts as missing: " << line << '\n';
   for (const std::string& line : summary.details) out << line << '\n';
   out << "frames " << summary.frames << " (removed " << summary.removed_frames << ")\n"
       << "pixels checked " << summary.pixels << '\n'

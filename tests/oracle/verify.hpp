@@ -39,6 +39,8 @@ struct VerifySummary {
   double error_max_of_bound = 0;     ///< largest error divided by its frame's bound
   std::vector<std::string> details;  ///< the first violations and undecided pixels, one line each
 
+  std::vector<std::string> refused_tiles;  ///< tiles that count as missing: file and fault
+
   [[nodiscard]] std::size_t violations() const {
     return frame_faults + soundness_violations + completeness_violations;
   }

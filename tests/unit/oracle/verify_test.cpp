@@ -5,9 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <sstream>
 
+#include "tests/oracle/camera.hpp"
 #include "tests/oracle/input_error.hpp"
+#include "tests/oracle/tracer.hpp"
 #include "tests/unit/oracle/scenes.hpp"
 
 namespace ridgeline::oracle {
@@ -131,6 +134,35 @@ TEST(Verify, a_shift_is_measured_and_fails_only_beyond_the_bound) {
   }
 }
 
+TEST(Verify, any_choice_within_the_bound_is_sound) {
+  scenes::Shot shot = mountain_shot();
+  shot.focal_px = 220;
+  shot.height = 40;
+  shot.pitch_deg = 0;
+  shot.bound_px = 1.5;
+  Frame frame = mountain_scene().drawn(shot);
+  const Tracer tracer(mountain_scene().truth(), shot.eye, shot.range_m);
+  const Camera camera(frame);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int v = 0; v < frame.height; ++v) {
+    for (int u = 0; u < frame.width; ++u) {
+      const double radius = 0.99 * shot.bound_px * std::sqrt(unit(random));
+      const double angle = 2 * pi * unit(random);
+      const FirstHit hit = tracer.first_hit(camera.direction(
+          {u + 0.5 + radius * std::cos(angle), v + 0.5 + radius * std::sin(angle)}));
+      frame.range[static_cast<std::size_t>(v * frame.width + u)] =
+          hit.must_be_unknown ? unknown : static_cast<float>(hit.distance_m);
+    }
+  }
+  const VerifySummary summary = mountain_scene().verified(frame);
+  EXPECT_EQ(summary.soundness_violations, 0U) << report(summary);
+  EXPECT_LE(summary.undecided, 1U) << report(summary);
+  EXPECT_GT(summary.error_max_px, 0.7);
+  EXPECT_LE(summary.error_max_px, 1.5);
+  EXPECT_GT(summary.error_mean_px, 0.1);
+}
+
 TEST(Verify, distances_too_long_by_one_percent_fail) {
   const Frame exact = mountain_scene().drawn(mountain_shot());
   for (const float factor : {1.01F, 0.99F}) {
@@ -149,8 +181,6 @@ TEST(Verify, a_look_straight_down_holds_and_fails_alike) {
   const Frame exact = mountain_scene().drawn(shot);
   const VerifySummary good = mountain_scene().verified(exact);
   EXPECT_EQ(good.violations() + good.undecided, 0U) << report(good);
-  const VerifySummary within = mountain_scene().verified(shifted(exact, 0, 0));
-  EXPECT_EQ(within.violations(), 0U);
   const VerifySummary off =
       mountain_scene().verified(changed(exact, [](float z) { return z * 1.05F; }));
   EXPECT_GT(off.soundness_violations, 200U) << report(off);
@@ -228,7 +258,7 @@ TEST(Verify, a_missing_tile_is_unknown_ground) {
   EXPECT_EQ(good.violations() + good.undecided, 0U) << report(good);
   const VerifySummary as_sky =
       scene.verified(changed(exact, [](float z) { return std::isnan(z) ? sky : z; }));
-  EXPECT_GT(as_sky.soundness_violations, 100U) << report(as_sky);
+  EXPECT_GT(as_sky.soundness_violations, 60U) << report(as_sky);
 }
 
 TEST(Verify, sky_and_ground_may_not_change_places) {
