@@ -1,0 +1,132 @@
+#include "tests/oracle/ray_path.hpp"
+
+#include <algorithm>
+
+namespace ridgeline::oracle {
+namespace {
+
+constexpr int nodes = 5;
+
+/// Chebyshev nodes and the values of the first five Chebyshev polynomials there.
+struct Nodes {
+  std::array<double, nodes> s{};
+  std::array<std::array<double, nodes>, nodes> t{};
+};
+
+Nodes make_nodes() {
+  Nodes result;
+  for (int k = 0; k < nodes; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    result.s[at] = std::cos((2 * k + 1) * pi / (2 * nodes));
+    for (int m = 0; m < nodes; ++m) {
+      result.t[static_cast<std::size_t>(m)][at] = std::cos(m * (2 * k + 1) * pi / (2 * nodes));
+    }
+  }
+  return result;
+}
+
+const Nodes& chebyshev() {
+  static const Nodes made = make_nodes();
+  return made;
+}
+
+Quartic through(const std::array<double, nodes>& values) {
+  std::array<double, nodes> a{};
+  for (std::size_t m = 0; m < nodes; ++m) {
+    for (std::size_t k = 0; k < nodes; ++k) a[m] += values[k] * chebyshev().t[m][k];
+    a[m] *= (m == 0 ? 1.0 : 2.0) / nodes;
+  }
+  return {{a[0] - a[2] + a[4], a[1] - 3 * a[3], 2 * a[2] - 8 * a[4], 4 * a[3], 8 * a[4]}};
+}
+
+/// The one root of a function that changes sign between `from` and `to`.
+template <class Function, class Slope>
+double root(const Function& f, const Slope& slope, double from, double to) {
+  const double at_from = f(from);
+  const double at_to = f(to);
+  const bool rising = at_to > 0;
+  double s = from + (to - from) * at_from / (at_from - at_to);
+  for (int round = 0; round < 80; ++round) {
+    const double value = f(s);
+    if (value == 0) return s;
+    ((value > 0) == rising ? to : from) = s;
+    const double step = -value / slope(s);
+    const double next = s + step;
+    if (std::isfinite(next) && next > from && next < to) {
+      s = next;
+      if (std::abs(step) < 1e-15) return s;
+    } else {
+      s = 0.5 * (from + to);
+    }
+    if (to - from < 1e-15) return s;
+  }
+  return s;
+}
+
+void append_monotone(const Quartic& polynomial, double value, double from, double to,
+                     std::vector<double>& crossings) {
+  const double at_from = polynomial.at(from) - value;
+  const double at_to = polynomial.at(to) - value;
+  if ((at_from > 0) == (at_to > 0)) return;
+  crossings.push_back(root([&](double s) { return polynomial.at(s) - value; },
+                           [&](double s) { return polynomial.slope(s); }, from, to));
+}
+
+}  // namespace
+
+double stretch_length_m(const Vec3& point) {
+  // The interpolation error falls with the fifth power of length over distance from the axis.
+  return std::clamp(0.004 * std::hypot(point.x, point.y), 1.0, 16000.0);
+}
+
+Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to_m,
+                double near_lon_deg) {
+  Stretch result;
+  result.middle_m = 0.5 * (from_m + to_m);
+  result.half_m = 0.5 * (to_m - from_m);
+  std::array<double, nodes> lat{};
+  std::array<double, nodes> lon{};
+  std::array<double, nodes> height{};
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const Geodetic g = geodetic_from_ecef(eye + result.distance_m(chebyshev().s[k]) * direction);
+    lat[k] = g.lat_deg;
+    lon[k] = g.lon_deg + 360.0 * std::round((near_lon_deg - g.lon_deg) / 360.0);
+    height[k] = g.height_m;
+  }
+  result.lat_deg = through(lat);
+  result.lon_deg = through(lon);
+  result.height_m = through(height);
+  return result;
+}
+
+Quartic datum_height_m(const Stretch& stretch, const GeoidPatch& patch) {
+  std::array<double, nodes> values{};
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const double s = chebyshev().s[k];
+    values[k] = patch.at(stretch.lat_deg.at(s), stretch.lon_deg.at(s));
+  }
+  const Quartic undulation = through(values);
+  Quartic result = stretch.height_m;
+  for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] -= undulation.c[i];
+  return result;
+}
+
+void append_crossings(const Quartic& polynomial, double value, double from, double to,
+                      std::vector<double>& crossings) {
+  const double slope_from = polynomial.slope(from);
+  const double slope_to = polynomial.slope(to);
+  if ((slope_from > 0) == (slope_to > 0)) {
+    append_monotone(polynomial, value, from, to, crossings);
+    return;
+  }
+  const double turn =
+      root([&](double s) { return polynomial.slope(s); },
+           [&](double s) {
+             return 2 * polynomial.c[2] + s * (6 * polynomial.c[3] + s * 12 * polynomial.c[4]);
+           },
+           from, to);
+  append_monotone(polynomial, value, from, turn, crossings);
+  append_monotone(polynomial, value, turn, to, crossings);
+}
+
+}  // namespace ridgeline::oracle

@@ -1,0 +1,168 @@
+#include "tests/oracle/tile_files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "tests/oracle/input_error.hpp"
+
+namespace ridgeline::oracle {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+Bytes file_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string(), "cannot be opened");
+  Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) throw InputError(file.string(), "cannot be read");
+  return bytes;
+}
+
+unsigned big_endian_16(const Bytes& bytes, std::size_t at) {
+  return static_cast<unsigned>(bytes[at]) << 8U | bytes[at + 1];
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// A run of digits as a number, or -1.
+int number(std::string_view digits) {
+  int value = -1;
+  const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (fault != std::errc() || end != digits.data() + digits.size() || value < 0) return -1;
+  return value;
+}
+
+/// `DDDMMSSH` as degrees; NaN where it is not one.
+double dted_angle_deg(std::string_view text, char negative, char positive) {
+  const int degrees = number(text.substr(0, 3));
+  const int minutes = number(text.substr(3, 2));
+  const int seconds = number(text.substr(5, 2));
+  const char side = text[7];
+  if (degrees < 0 || minutes < 0 || seconds < 0 || (side != negative && side != positive)) {
+    return std::nan("");
+  }
+  const double angle = (degrees * 3600.0 + minutes * 60.0 + seconds) / 3600.0;
+  return side == negative ? -angle : angle;
+}
+
+Tile dted_header(const std::string& file, const Bytes& bytes) {
+  if (bytes.size() < 3428) throw InputError(file, "shorter than a DTED header");
+  std::string uhl(80, ' ');
+  std::copy_n(bytes.begin(), uhl.size(), uhl.begin());
+  const std::string_view header = uhl;
+  if (header.substr(0, 4) != "UHL1") throw InputError(file, "has no DTED user header");
+  Tile tile;
+  tile.west_deg = dted_angle_deg(header.substr(4, 8), 'W', 'E');
+  tile.south_deg = dted_angle_deg(header.substr(12, 8), 'S', 'N');
+  const int lon_step = number(header.substr(20, 4));
+  const int lat_step = number(header.substr(24, 4));
+  tile.columns = number(header.substr(47, 4));
+  tile.rows = number(header.substr(51, 4));
+  if (std::isnan(tile.west_deg) || std::isnan(tile.south_deg) || lon_step <= 0 || lat_step <= 0 ||
+      tile.columns < 2 || tile.rows < 2) {
+    throw InputError(file, "DTED user header is corrupt");
+  }
+  tile.lon_step_deg = lon_step / 36000.0;
+  tile.lat_step_deg = lat_step / 36000.0;
+  return tile;
+}
+
+struct Corner {
+  double south_deg;
+  double west_deg;
+};
+
+/// The corner in a lower-case name such as `n46e008.hgt` or `n46_e008.srtmgl1.hgt`.
+std::optional<Corner> corner_in_name(std::string name) {
+  if (name.size() > 3 && name[3] == '_') name.erase(3, 1);
+  if (name.size() < 7 || (name.size() > 7 && std::isalnum(static_cast<unsigned char>(name[7])))) {
+    return std::nullopt;
+  }
+  const std::string_view view = name;
+  const int lat = number(view.substr(1, 2));
+  const int lon = number(view.substr(4, 3));
+  const bool sides = (name[0] == 'n' || name[0] == 's') && (name[3] == 'e' || name[3] == 'w');
+  if (!sides || lat < 0 || lat > 90 || lon < 0 || lon > 180) return std::nullopt;
+  const double west = name[3] == 'w' ? -lon : lon;
+  return Corner{static_cast<double>(name[0] == 's' ? -lat : lat), west >= 180 ? west - 360 : west};
+}
+
+}  // namespace
+
+Tile read_hgt(const std::filesystem::path& file) {
+  const std::string name = lower(file.filename().string());
+  const std::optional<Corner> corner = corner_in_name(name);
+  if (!corner) throw InputError(file.string(), "name does not say which tile it is");
+  const Bytes bytes = file_bytes(file);
+  Tile tile;
+  tile.name = file.filename().string();
+  for (const int side : {1201, 3601}) {
+    if (bytes.size() == 2U * static_cast<unsigned>(side) * static_cast<unsigned>(side)) {
+      tile.rows = tile.columns = side;
+    }
+  }
+  if (tile.rows == 0)
+    throw InputError(file.string(), "size is neither 1201 nor 3601 posts squared");
+  tile.south_deg = corner->south_deg;
+  tile.west_deg = corner->west_deg;
+  tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
+  tile.posts.resize(bytes.size() / 2);
+  std::size_t from = 0;
+  for (int row = tile.rows - 1; row >= 0; --row) {
+    for (int column = 0; column < tile.columns; ++column, from += 2) {
+      const auto value = static_cast<std::int16_t>(big_endian_16(bytes, from));
+      tile.at(row, column) = value == -32768 ? void_post : static_cast<float>(value);
+    }
+  }
+  return tile;
+}
+
+Tile read_dted(const std::filesystem::path& file) {
+  const Bytes bytes = file_bytes(file);
+  Tile tile = dted_header(file.string(), bytes);
+  tile.name = file.filename().string();
+  if (tile.west_deg >= 180) tile.west_deg -= 360;
+  const auto rows = static_cast<std::size_t>(tile.rows);
+  const auto columns = static_cast<std::size_t>(tile.columns);
+  const std::size_t record = 8 + 2 * rows + 4;
+  if (bytes.size() < 3428 + columns * record) {
+    throw InputError(file.string(), "shorter than its DTED header says");
+  }
+  tile.posts.resize(rows * columns);
+  for (int column = 0; column < tile.columns; ++column) {
+    const std::size_t start = 3428 + static_cast<std::size_t>(column) * record;
+    if (bytes[start] != 0xAA) throw InputError(file.string(), "DTED record without its sentinel");
+    std::uint32_t sum = 0;
+    for (std::size_t at = start; at < start + record - 4; ++at) sum += bytes[at];
+    const std::uint32_t stored =
+        big_endian_16(bytes, start + record - 4) << 16U | big_endian_16(bytes, start + record - 2);
+    if (stored != sum) throw InputError(file.string(), "DTED record checksum does not match");
+    for (int row = 0; row < tile.rows; ++row) {
+      const unsigned raw = big_endian_16(bytes, start + 8 + 2 * static_cast<std::size_t>(row));
+      const int magnitude = static_cast<int>(raw & 0x7FFFU);
+      const int value = (raw & 0x8000U) != 0 ? -magnitude : magnitude;
+      tile.at(row, column) = value == -32767 ? void_post : static_cast<float>(value);
+    }
+  }
+  return tile;
+}
+
+std::optional<Tile> read_tile(const std::filesystem::path& file) {
+  const std::string extension = lower(file.extension().string());
+  if (extension == ".hgt") return read_hgt(file);
+  if (extension == ".dt0" || extension == ".dt1" || extension == ".dt2") return read_dted(file);
+  if (extension == ".tif" || extension == ".tiff") return read_geotiff(file);
+  return std::nullopt;
+}
+
+}  // namespace ridgeline::oracle

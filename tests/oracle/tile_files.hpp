@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "tests/oracle/tile.hpp"
+
+namespace ridgeline::oracle {
+
+/// The tile in a file, or nothing where the name is not one of a terrain tile. The name decides
+/// the format: `.hgt`, `.dt0` to `.dt2`, `.tif`/`.tiff`, in either case.
+/// Errors: InputError naming the file.
+[[nodiscard]] std::optional<Tile> read_tile(const std::filesystem::path& file);
+
+/// SRTM `.hgt`: 1201 or 3601 posts a side, rows from the north, big-endian, -32768 void; the
+/// name gives the south-west corner.
+[[nodiscard]] Tile read_hgt(const std::filesystem::path& file);
+
+/// DTED level 0, 1 or 2: the header gives origin, interval and counts (so every latitude zone is
+/// read alike), heights are sign-magnitude, -32767 void; record checksums are compared.
+/// Source: MIL-PRF-89020B.
+[[nodiscard]] Tile read_dted(const std::filesystem::path& file);
+
+/// A geographic GeoTIFF through GDAL. GDAL places the corner of the first pixel whatever the
+/// file says about points and areas, so a post is half a pixel inside it. Posts are snapped to
+/// exact multiples of the step where they lie within a thousandth of a step of one.
+/// Errors: InputError, also for projected or rotated rasters.
+[[nodiscard]] Tile read_geotiff(const std::filesystem::path& file);
+
+}  // namespace ridgeline::oracle

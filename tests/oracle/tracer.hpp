@@ -1,0 +1,74 @@
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "tests/oracle/terrain.hpp"
+#include "tests/oracle/wgs84.hpp"
+
+namespace ridgeline::oracle {
+
+/// Heights below which a ray over an unknown cell *may* show unknown (contract, section 1).
+inline constexpr double may_be_unknown_below_m = 9000;
+
+/// What one ray truly meets.
+struct FirstHit {
+  /// Z of the contract: m along the ray, +inf for sky.
+  double distance_m = std::numeric_limits<double>::infinity();
+  bool may_be_unknown = false;   ///< before Z, over an unknown cell below 9000 m
+  bool must_be_unknown = false;  ///< before Z, over an unknown cell below the contract's threshold
+
+  [[nodiscard]] bool is_sky() const { return distance_m > std::numeric_limits<double>::max(); }
+};
+
+/// How rays are walked. Acceleration skips stretches that a block's highest post proves irrelevant;
+/// the answers are the same without it (test Tracer.acceleration_changes_nothing).
+enum class Walk { accelerated, every_cell };
+
+/// Walks rays from one eye, cell by cell, in double precision on the ellipsoid.
+///
+/// A ray is cut into stretches, at the lines of the geoid grid, at the edges of tiles and at the
+/// lines of posts; between two cuts the surface is one bilinear patch and the ray one polynomial,
+/// so the first root of their difference is found in closed intervals, tangencies included.
+/// A location in two overlapping tiles belongs to the finer one. Where there is no tile the cells
+/// are unknown, with the steps of the nearest tile.
+/// Owner:  views `terrain`, which must outlive it. Safe to use from several threads.
+class Tracer {
+ public:
+  /// Units: m; rays end at `range_m`, and a surface beyond it is sky.
+  Tracer(const Terrain& terrain, const Geodetic& eye, double range_m,
+         Walk walk = Walk::accelerated);
+
+  /// The exact first hit of the ray along a unit vector (ECEF).
+  [[nodiscard]] FirstHit first_hit(const Vec3& direction) const;
+
+  /// The smallest of (height of the ray over the known surface) / (distance), over distances up to
+  /// `to_m`: negative once the ray is under the surface, and by how steep a turn it would get out.
+  /// Values above `ceiling` are cut to it, which lets the walk skip nearly everything.
+  [[nodiscard]] double clearance(const Vec3& direction, double to_m, double ceiling) const;
+
+  [[nodiscard]] const Vec3& eye() const { return eye_; }
+  [[nodiscard]] double range_m() const { return range_m_; }
+
+  /// A tile with its west edge on the turn of the eye's longitude.
+  struct View {
+    const TerrainTile* entry = nullptr;
+    double south_deg = 0;
+    double north_deg = 0;
+    double west_deg = 0;
+    double east_deg = 0;
+  };
+  [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
+  [[nodiscard]] const std::vector<View>& views() const { return views_; }
+  [[nodiscard]] double eye_lon_deg() const { return eye_lon_deg_; }
+  [[nodiscard]] Walk walk() const { return walk_; }
+
+ private:
+  const Terrain* terrain_;
+  Vec3 eye_;
+  double eye_lon_deg_;
+  double range_m_;
+  Walk walk_;
+  std::vector<View> views_;
+};
+
+}  // namespace ridgeline::oracle

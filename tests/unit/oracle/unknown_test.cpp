@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/oracle/tracer.hpp"
+#include "tests/unit/oracle/scenes.hpp"
+
+/// When unknown ground must and may show: contract.md section 1.
+namespace ridgeline::oracle {
+namespace {
+
+constexpr double cell_deg = 1.0 / 1200;
+
+/// A plain at 500 m with one void post at (46.5, 8.5), and a pit of 100 m some cells east of it.
+Terrain plain_with_pit(int cells_to_pit) {
+  const double pit = 8.5 + cells_to_pit * cell_deg;
+  return Terrain({scenes::tile(46, 8, 1200, 1200,
+                               [=](double lat, double lon) {
+                                 if (std::hypot(lat - 46.5, lon - 8.5) < 1e-6) return std::nan("");
+                                 return std::hypot(lat - 46.5, lon - pit) < 1e-6 ? 100.0 : 500.0;
+                               })},
+                 Geoid());
+}
+
+/// A ray straight down over the void's cells that ends at a height.
+FirstHit down_to(const Terrain& terrain, double lat, double lon, double end_m,
+                 double from_m = 9500) {
+  const Geodetic eye{lat, lon, from_m};
+  return Tracer(terrain, eye, from_m - end_m).first_hit(level_frame(lat, lon).down);
+}
+
+TEST(Unknown, a_void_is_transparent_and_must_show_below_the_lowest_post_around) {
+  const Terrain terrain = plain_with_pit(0x7FFFFF);
+  const double beside = 0.4 * cell_deg;
+  const FirstHit through = down_to(terrain, 46.5 + beside, 8.5 + beside, -100);
+  EXPECT_TRUE(through.is_sky());
+  EXPECT_TRUE(through.must_be_unknown);
+  EXPECT_TRUE(through.may_be_unknown);
+  const FirstHit above = down_to(terrain, 46.5 + beside, 8.5 + beside, 501);
+  EXPECT_FALSE(above.must_be_unknown);
+  EXPECT_TRUE(above.may_be_unknown);
+  EXPECT_TRUE(down_to(terrain, 46.5 + beside, 8.5 + beside, 499).must_be_unknown);
+  EXPECT_FALSE(down_to(terrain, 46.5 + beside, 8.5 + beside, 9001).may_be_unknown);
+  EXPECT_TRUE(down_to(terrain, 46.5 + beside, 8.5 + beside, 8999).may_be_unknown);
+  const FirstHit next_cell = down_to(terrain, 46.5 + 3 * cell_deg, 8.5, -100);
+  EXPECT_NEAR(next_cell.distance_m, 9000, 1e-6);
+  EXPECT_FALSE(next_cell.may_be_unknown);
+}
+
+TEST(Unknown, a_void_behind_the_first_hit_does_not_count) {
+  const Terrain terrain = plain_with_pit(0x7FFFFF);
+  const Geodetic eye{46.45, 8.5, 1000};
+  const CameraAxes axes = camera_axes(level_frame(46.45, 8.5), 0, -6.0, 0);
+  const FirstHit hit = Tracer(terrain, eye, 30000).first_hit(axes.forward);
+  EXPECT_LT(hit.distance_m, 5000);
+  EXPECT_FALSE(hit.may_be_unknown);
+}
+
+TEST(Unknown, the_threshold_is_that_of_the_alignment_that_asks_least) {
+  const double beside = 0.4 * cell_deg;
+  for (const int near : {20, 64, 126}) {
+    const Terrain terrain = plain_with_pit(near);
+    EXPECT_FALSE(down_to(terrain, 46.5 + beside, 8.5 + beside, 101).must_be_unknown) << near;
+    EXPECT_TRUE(down_to(terrain, 46.5 + beside, 8.5 + beside, 99).must_be_unknown) << near;
+  }
+  // Beyond 127 cells, and the summary's own blocks of 16, no alignment reaches the pit.
+  EXPECT_TRUE(down_to(plain_with_pit(180), 46.5 + beside, 8.5 + beside, 499).must_be_unknown);
+}
+
+TEST(Unknown, far_from_known_posts_the_lowest_of_the_whole_terrain_counts) {
+  const auto half = [](double lat, double lon) {
+    if (lat > 46.2) return std::nan("");
+    return lon < 8.1 && lat < 46.01 ? -20.0 : 700.0;
+  };
+  const Terrain terrain({scenes::tile(46, 8, 1200, 1200, half)}, Geoid());
+  EXPECT_FALSE(down_to(terrain, 46.8, 8.8, -19).must_be_unknown);
+  EXPECT_TRUE(down_to(terrain, 46.8, 8.8, -21).must_be_unknown);
+  EXPECT_TRUE(down_to(terrain, 46.203, 8.8, 650).must_be_unknown);
+}
+
+TEST(Unknown, no_tile_is_unknown_ground_as_well) {
+  const Terrain terrain({scenes::tile(46, 8, 1200, 1200,
+                                      [](double, double lon) { return lon < 8.1 ? 30.0 : 600.0; })},
+                        Geoid());
+  const FirstHit far = down_to(terrain, 47.9, 8.5, 31);
+  EXPECT_FALSE(far.must_be_unknown);
+  EXPECT_TRUE(far.may_be_unknown);
+  EXPECT_TRUE(down_to(terrain, 47.9, 8.5, 29).must_be_unknown);
+  // Just over the edge the posts of the tile are in every alignment's blocks.
+  EXPECT_TRUE(down_to(terrain, 47.0 + 5 * cell_deg, 8.5, 599).must_be_unknown);
+  EXPECT_FALSE(down_to(terrain, 47.0 + 5 * cell_deg, 8.5, 601).must_be_unknown);
+}
+
+TEST(Unknown, a_post_that_one_of_two_tiles_knows_is_known) {
+  const auto without_its_edge = [](double, double lon) {
+    return lon > 9 - 1e-9 ? std::nan("") : 500.0;
+  };
+  const Terrain terrain({scenes::tile(46, 8, 1200, 1200, without_its_edge),
+                         scenes::tile(46, 9, 1200, 1200, [](double, double) { return 500.0; })},
+                        Geoid());
+  const FirstHit hit = down_to(terrain, 46.5, 9 - 0.5 * cell_deg, 0);
+  EXPECT_NEAR(hit.distance_m, 9000, 1e-6);
+  EXPECT_FALSE(hit.may_be_unknown);
+}
+
+}  // namespace
+}  // namespace ridgeline::oracle
