@@ -78,14 +78,14 @@ TEST(OwnshipUpdate, a_latitude_alone_never_moves_the_position_nor_keeps_it_fresh
 TEST(OwnshipUpdate, coordinates_of_different_fixes_never_make_a_position) {
   // The longitude of the second fix and the latitude of the third are lost.
   Ownship own;
-  own.feed_fix(46.500, 8.000, 0.0);
-  own.feed(long_of(P::gps_latitude, 46.501, 100.0));
-  own.feed(long_of(P::gps_longitude, 8.002, 201.0));
+  own.feed_fix(46.5000, 8.0000, 0.0);
+  own.feed(long_of(P::gps_latitude, 46.5001, 100.0));
+  own.feed(long_of(P::gps_longitude, 8.0002, 201.0));
   EXPECT_EQ(own.state[P::gps_latitude].value, 46.5);
   EXPECT_EQ(own.state[P::gps_longitude].value, 8.0);
-  own.feed_fix(46.503, 8.003, 300.0);
-  EXPECT_EQ(own.state[P::gps_latitude].value, 46.503);
-  EXPECT_EQ(own.state[P::gps_longitude].value, 8.003);
+  own.feed_fix(46.5003, 8.0003, 300.0);
+  EXPECT_EQ(own.state[P::gps_latitude].value, 46.5003);
+  EXPECT_EQ(own.state[P::gps_longitude].value, 8.0003);
 }
 
 TEST(OwnshipUpdate, longitude_may_come_first) {
