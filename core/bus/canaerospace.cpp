@@ -12,7 +12,8 @@ constexpr std::uint8_t no_row = 0xff;
 constexpr std::uint8_t header_bytes = 4;
 /// Angles further out than this are not angles that were left unwrapped, they are garbage.
 constexpr double wrap_domain_deg = 720.0;
-constexpr double position_unit_deg = 1e-7;
+/// LONG positions count 1e-7 degree; dividing rounds once, multiplying by 1e-7 would round twice.
+constexpr double position_units_per_deg = 1e7;
 
 constexpr std::array<std::uint8_t, id_count> make_row_index() {
   std::array<std::uint8_t, id_count> index{};
@@ -98,8 +99,8 @@ Result<double> raw_value(const BusIcdRow& row, CanasType type, const CanasMessag
     case CanasType::float32:
       return static_cast<double>(std::bit_cast<float>(u32_be(message.data)));
     case CanasType::int32:
-      return static_cast<double>(static_cast<std::int32_t>(u32_be(message.data))) *
-             position_unit_deg;
+      return static_cast<double>(static_cast<std::int32_t>(u32_be(message.data))) /
+             position_units_per_deg;
     case CanasType::short2:
       return analogue_value(message.data);
     case CanasType::char4:

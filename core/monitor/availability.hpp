@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 #include "core/base/fixed_vector.hpp"
@@ -18,11 +19,13 @@ enum class Reason : std::uint8_t {
 #include "config/reasons.def"
 #undef RL_REASON
 };
-inline constexpr std::size_t reason_count = 0
-#define RL_REASON(word, mode, text) +1
+inline constexpr std::size_t reason_count =
+    std::initializer_list<Reason>{
+#define RL_REASON(word, mode, text) Reason::word,
 #include "config/reasons.def"
 #undef RL_REASON
-    ;
+    }
+        .size();
 
 /// The stable word of a reason, as written in reports and dumps.
 [[nodiscard]] std::string_view reason_word(Reason reason);

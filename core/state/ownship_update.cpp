@@ -251,7 +251,8 @@ void take_frame(OwnshipState& state, const BusFrame& frame, const BusProfile& pr
   count_fault(counters, decoded.fault());
   const bool value_is_bad = decoded.fault() == Fault::bus_value_not_finite ||
                             decoded.fault() == Fault::bus_value_out_of_range;
-  if (value_is_bad) refuse_value(state, row->parameter, Validity::invalid, frame.time_ns);
+  if (value_is_bad && row != nullptr)
+    refuse_value(state, row->parameter, Validity::invalid, frame.time_ns);
 }
 
 }  // namespace
