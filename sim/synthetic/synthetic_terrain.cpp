@@ -199,8 +199,8 @@ double SyntheticTerrain::relief_m(double east_m, double north_m) const {
   const double land_m = smooth_value(height_m_, cell);
   if (land_m <= 0) return 0;
   const double steepness = std::min(1.0, bilinear_value(slope_, cell) / 0.5);
-  const double rock = ridged_noise(east_m / 1100, north_m / 1100, 4, 600) - 0.45;
-  return std::max(0.0, land_m + 140 * steepness * (0.2 + 0.8 * steepness) * rock);
+  const double rock = ridged_noise(east_m / 1300, north_m / 1300, 4, 600) - 0.45;
+  return std::max(0.0, land_m + 260 * steepness * (0.2 + 0.8 * steepness) * rock);
 }
 
 double SyntheticTerrain::height_m(double latitude_deg, double longitude_deg) const {
