@@ -1,0 +1,38 @@
+#include "tests/oracle/verify.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include "sim/commands/commands.hpp"
+#include "sim/commands/scene_arguments.hpp"
+#include "tests/oracle/input_error.hpp"
+
+namespace ridgeline::sim {
+
+void add_verify_command(CLI::App& program, int& status) {
+  auto options = std::make_shared<oracle::VerifyOptions>();
+  CLI::App* command = program.add_subcommand("verify", "check a dump against the terrain files");
+  command->add_option("DUMP_DIR", options->dump_folder, "folder of a dump")->required();
+  command->add_option("--terrain", options->terrain_folder, "folder of raw elevation tiles")
+      ->required();
+  command->add_option("--geoid", options->geoid, "geoid file or `none`");
+  command->add_option("--pixels", options->pixels_per_frame, "pixels a frame, half at depth jumps")
+      ->check(CLI::Range(1, 100'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the choice of pixels")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "threads; the result is the same")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->callback([options, &status] {
+    try {
+      const oracle::VerifySummary summary = oracle::run_verify(*options, std::cerr);
+      oracle::print_summary(summary, std::cout);
+      status = oracle::exit_status(summary);
+    } catch (const oracle::InputError& error) {
+      status = fail(bad_input, error.what());
+    }
+  });
+}
+
+}  // namespace ridgeline::sim
