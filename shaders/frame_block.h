@@ -33,8 +33,7 @@ RL_CONST(second_image, 1);
 // Shader storage buffers.
 RL_CONST(planes_buffer, 0);
 RL_CONST(slopes_buffer, 1);
-RL_CONST(queue_buffer, 2);
-RL_CONST(counters_buffer, 3);
+RL_CONST(counters_buffer, 2);
 
 // One frame: pose, window and ground map. Lengths in m; window coordinates in posts, relative to
 // the post south-west of the eye; heights relative to the window's base height.
@@ -45,7 +44,7 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 eye;           // xy: eye in window posts, 0..1; z + w: eye height over the base, high and low
   vec4 earth;         // x: 1/M; y: 1/N; z: base height; w: eye height over the ellipsoid
   vec4 heights;       // x: highest, y: lowest height over the base; z: largest node; w: largest step
-  vec4 tolerance;     // x: witness radius, grid squares; y: residual accepted, rad; z: 1/range; w: unused
+  vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; y, w: unused
   ivec4 window;       // xy: post south-west of the eye; zw: columns and rows of the window
   vec4 latitude[3];   // ground map in posts: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // 10 11 12 13 | 14 30 31 32 | 50 - - -

@@ -32,10 +32,10 @@ Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& c
 }
 
 PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, const Camera& camera,
-                   const ErrorBudget& budget) {
+                   const GridSpacing& node_spacing) {
   PolarGrid grid;
   if (settings.cast_every_pixel) return grid;
-  grid = polar_grid(camera, budget.spacing_px);
+  grid = polar_grid(camera, node_spacing);
   if (grid.plane_count > sizes.planes || grid.row_count > sizes.rows) grid.used = false;
   return grid;
 }
@@ -95,14 +95,14 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   if (report.window.tiles_mismatched > 0) add_reason(report.availability, Reason::tile_refused);
 
   // Projected grid, error buffer, ray cast.
-  PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera, report.budget);
+  PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera, settings.node_spacing);
   if (grid.used) {
     report.nodes = fill_grid_tables(report.camera, map.value(), grid, tables.planes, tables.slopes);
     const double pixels = static_cast<double>(report.camera.width_px) * report.camera.height_px;
     if (static_cast<double>(report.nodes) > most_nodes_per_pixel * pixels) grid.used = false;
   }
-  blocks = frame_blocks(report.local, report.camera, map.value(), grid, report.budget,
-                        terrain.grid(), terrain.summary(), terrain.base_height_m());
+  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.grid(),
+                        terrain.summary(), terrain.base_height_m());
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;

@@ -12,6 +12,7 @@ struct FrameSettings {
   ImageGeometry image;
   double error_px = limits::default_error_px;
   double range_m = limits::default_range_m;
+  GridSpacing node_spacing{3.0, 1.5};  ///< docs/performance.md has the sweep over both
   /// Every pixel by the ray cast pass, no projected grid: the plain max-pyramid ray caster that the
   /// benchmark compares with.
   bool cast_every_pixel = false;
@@ -29,7 +30,7 @@ struct FrameInput {
 /// Tables the pipeline fills anew each frame; static storage, sizes from config/limits.hpp.
 struct FrameTables {
   std::span<PlaneRecord> planes;  ///< >= RenderSizes::planes
-  std::span<SlopeRecord> slopes;  ///< >= RenderSizes::rows
+  std::span<float> slopes;        ///< >= RenderSizes::rows
   std::span<std::uint8_t> text;   ///< width x height
 };
 

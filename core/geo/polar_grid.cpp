@@ -106,9 +106,9 @@ double value_of_index(const PolarGrid::Segments& segments, double start, double 
 }
 
 /// Fills both density tables: the largest pixels per rad over the visible part of each strip.
-void set_densities(const Camera& camera, double margin_px, PolarGrid& grid) {
+void set_densities(const Camera& camera, const GridSpacing& spacing, PolarGrid& grid) {
   const glm::dvec3 forward = camera.enu_from_camera.columns[2];
-  const double edge_cosine = std::cos(camera.half_diagonal_rad(margin_px));
+  const double edge_cosine = std::cos(camera.half_diagonal_rad(grid.margin_px));
   const double focal = std::max(camera.fx, camera.fy);
   const double azimuth_width = grid.azimuth_span_rad / segment_count;
   const double slope_width = (grid.slope_high - grid.slope_low) / segment_count;
@@ -128,8 +128,8 @@ void set_densities(const Camera& camera, double margin_px, PolarGrid& grid) {
       const double px_per_rad = focal / (nearest * nearest);
       auto& plane = grid.planes[i].density;
       auto& row = grid.rows[j].density;
-      plane = std::max(plane, px_per_rad * cos_e / grid.spacing_px);
-      row = std::max(row, px_per_rad * cos_e * cos_e / grid.spacing_px);
+      plane = std::max(plane, px_per_rad * cos_e / spacing.planes_px);
+      row = std::max(row, px_per_rad * cos_e * cos_e / spacing.rows_px);
     }
   }
 }
@@ -150,10 +150,10 @@ double PolarGrid::row_of_slope(double slope) const {
   return rows[k].first_index + (slope - slope_low - k * width) * rows[k].density;
 }
 
-PolarGrid polar_grid(const Camera& camera, double spacing_px) {
+PolarGrid polar_grid(const Camera& camera, const GridSpacing& spacing) {
   PolarGrid grid;
-  grid.spacing_px = spacing_px;
-  const double margin_px = 3.0 * spacing_px + 2.0;
+  grid.margin_px = 3.0 * std::max(spacing.planes_px, spacing.rows_px) + 2.0;
+  const double margin_px = grid.margin_px;
   Extent azimuth, slope;
   border_extent(camera, margin_px, azimuth, slope);
   const double pole_margin_px = margin_px + 2 * border_step_px;
@@ -167,7 +167,7 @@ PolarGrid polar_grid(const Camera& camera, double spacing_px) {
   grid.full_circle = nadir || zenith || azimuth.high - azimuth.low > 1.9 * pi;
   grid.azimuth_start_rad = grid.full_circle ? -pi : azimuth.low;
   grid.azimuth_span_rad = grid.full_circle ? 2 * pi : azimuth.high - azimuth.low;
-  set_densities(camera, margin_px, grid);
+  set_densities(camera, spacing, grid);
   const int planes = number_segments(grid.planes, grid.azimuth_span_rad / segment_count);
   const int rows = number_segments(grid.rows, (grid.slope_high - grid.slope_low) / segment_count);
   grid.plane_count = grid.full_circle ? planes : planes + 1;
@@ -180,7 +180,7 @@ RowRange visible_rows(const Camera& camera, const PolarGrid& grid, double azimut
   // Along a plane the direction is linear in the slope, so each side of the picture cuts the
   // plane in one slope: direction(s) = (sin a, cos a, s); side: n . (camera axes of direction) >=
   // 0.
-  const double margin_px = 3.0 * grid.spacing_px + 1.0;
+  const double margin_px = grid.margin_px;
   const glm::dmat3 camera_from_enu = glm::transpose(camera.enu_from_camera.columns);
   const glm::dvec3 base =
       camera_from_enu * glm::dvec3(std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);

@@ -11,7 +11,7 @@ namespace ridgeline {
 /// Node (plane i, row j) is the ray with azimuth plane_azimuth_rad(i) whose elevation has the
 /// tangent row_slope(j). Both axes are cut into equal segments; inside a segment the spacing is
 /// uniform and so dense that two neighbouring nodes anywhere in the picture are at most
-/// `spacing_px` apart. This is the view-dependent distribution that the projected-grid papers
+/// `GridSpacing` apart. This is the view-dependent distribution that the projected-grid papers
 /// warp for, with a bound instead of an average.
 /// Frame: azimuths clockwise from north in the ENU frame of the eye; slope = up / horizontal.
 struct PolarGrid {
@@ -28,7 +28,7 @@ struct PolarGrid {
   double slope_low = 0, slope_high = 0;
   Segments planes, rows;
   int plane_count = 0, row_count = 0;
-  double spacing_px = 0;
+  double margin_px = 0;  ///< border round the picture that the grid covers as well
 
   [[nodiscard]] double plane_azimuth_rad(int plane) const;
   [[nodiscard]] double row_slope(int row) const;
@@ -41,12 +41,18 @@ struct RowRange {
   int first = 0, last = -1;
 };
 
+/// Largest distance between neighbours, pixels of the picture.
+struct GridSpacing {
+  double planes_px = 1;
+  double rows_px = 1;
+};
+
 /// Grid for one camera.
-/// Units:  spacing in pixels of the picture.
-/// Domain: spacing_px > 0. Grids above limits::max_planes or max_rows are not made: `used` is
+/// Units:  pixels of the picture.
+/// Domain: spacings > 0. Grids above limits::max_planes or max_rows are not made: `used` is
 ///         false and plane_count or row_count says what was asked for.
 /// Cost:   about 1e5 operations, no allocation.
-PolarGrid polar_grid(const Camera& camera, double spacing_px);
+PolarGrid polar_grid(const Camera& camera, const GridSpacing& spacing);
 
 /// Rows of the grid that plane `azimuth_rad` needs so that every node of a grid square that holds
 /// a point of the picture is covered.

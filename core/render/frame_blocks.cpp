@@ -9,10 +9,9 @@ namespace {
 // Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
 constexpr double float_angle_rad = 1.5e-6;
 constexpr double float_height_ratio = 1.8e-7;
-constexpr double node_placement_px = 0.005;
-constexpr double witness_use = 0.995;      ///< keeps the witness test's own rounding inside
-constexpr double nodes_per_witness = 1.3;  ///< spacing over witness radius; sqrt(2) is the limit
-constexpr double residual_share = 0.25;
+constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
+constexpr double wedge_posts =
+    0.85;  ///< half width of a wedge that the nodes' overlap still covers
 
 float f(double value) {
   return static_cast<float>(value);
@@ -22,7 +21,7 @@ glm::vec4 vec4_of(const glm::dvec3& v, double w) {
   return {f(v.x), f(v.y), f(v.z), f(w)};
 }
 
-/// Longest step for which a straight exit stays within half a post of the true track.
+/// Longest step for which a straight exit stays within slip_posts of the true track.
 double largest_step_m(const GroundMap& map, const WindowGrid& window) {
   const double range2 = map.range_m * map.range_m;
   double bend = 0;  // posts per m², largest sum of second derivatives over the range
@@ -36,7 +35,7 @@ double largest_step_m(const GroundMap& map, const WindowGrid& window) {
                       20 * std::abs(b[4]) + 6 * std::abs(b[5]) + 12 * std::abs(b[6]) +
                       20 * std::abs(b[7]) + 20 * std::abs(b[8]);
   bend = std::max(north / window.latitude_step_deg, east / window.longitude_step_deg) / range2;
-  return std::sqrt(2.0 * 0.5 / std::max(bend, 1e-12));
+  return std::sqrt(2.0 * slip_posts / std::max(bend, 1e-12));
 }
 
 }  // namespace
@@ -48,18 +47,14 @@ Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, dou
   ErrorBudget budget;
   budget.epsilon_px = epsilon_px;
   budget.geometry_px =
-      node_placement_px +
       px_per_rad * (map.error_rad + float_angle_rad +
                     float_height_ratio * std::abs(eye_over_base_m) / std::max(clearance_m, 0.05));
-  budget.witness_px = witness_use * (epsilon_px - budget.geometry_px);
-  if (!(budget.witness_px > 0.5 * epsilon_px)) return Fault::error_bound_out_of_range;
-  budget.spacing_px = nodes_per_witness * budget.witness_px;
-  budget.residual_rad = residual_share * budget.witness_px / std::max(camera.fx, camera.fy);
+  if (!(budget.geometry_px <= 0.5 * epsilon_px)) return Fault::error_bound_out_of_range;
   return budget;
 }
 
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const ErrorBudget& budget, const WindowGrid& window,
+                         const PolarGrid& grid, const WindowGrid& window,
                          const WindowSummary& summary, double base_height_m) {
   FrameBlocks blocks{};
   auto& b = blocks.frame;
@@ -79,8 +74,9 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
              f(frame.eye.height_m)};
   b.heights = {f(summary.highest_m - base_height_m), f(summary.lowest_m - base_height_m),
                f(limits::top_level), f(largest_step_m(map, window))};
-  const double witness = grid.used ? budget.witness_px / grid.spacing_px : 0.0;
-  b.tolerance = {f(witness), f(budget.residual_rad), f(1.0 / map.range_m), 0.0f};
+  const double sweep_end_m =
+      grid.used ? std::min(wedge_limit_m(frame, grid, window), 1.003 * map.range_m) : 0.0;
+  b.tolerance = {f(sweep_end_m), 0.0f, f(1.0 / map.range_m), 0.0f};
   b.window = {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), window.columns,
               window.rows};
   for (int k = 0; k < 11; ++k) {
@@ -104,8 +100,23 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   return blocks;
 }
 
+double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const WindowGrid& window) {
+  constexpr double rad_per_deg = 0.017453292519943295;
+  double widest_rad = 0;
+  for (const PolarGrid::Segment& segment : grid.planes) {
+    widest_rad = std::max(widest_rad, 1.0 / segment.density);
+  }
+  // The narrowest post within reach: that of the highest latitude the window holds.
+  const double north =
+      std::max(std::abs(window.latitude_deg(0)), std::abs(window.latitude_deg(window.rows - 1)));
+  const double east_m = window.longitude_step_deg * rad_per_deg * frame.prime_vertical_radius_m *
+                        std::cos(std::min(north, 89.9) * rad_per_deg);
+  const double north_m = window.latitude_step_deg * rad_per_deg * frame.meridian_radius_m;
+  return wedge_posts * std::min(east_m, 0.99 * north_m) / (0.5 * widest_rad);
+}
+
 std::int64_t fill_grid_tables(const Camera& camera, const GroundMap& map, const PolarGrid& grid,
-                              std::span<PlaneRecord> planes, std::span<SlopeRecord> slopes) {
+                              std::span<PlaneRecord> planes, std::span<float> slopes) {
   std::int64_t nodes = 0;
   for (int i = 0; i < grid.plane_count; ++i) {
     const double azimuth = grid.plane_azimuth_rad(i);
@@ -118,8 +129,7 @@ std::int64_t fill_grid_tables(const Camera& camera, const GroundMap& map, const 
     nodes += std::max(0, rows.last - rows.first + 1);
   }
   for (int j = 0; j < grid.row_count; ++j) {
-    const double slope = grid.row_slope(j);
-    slopes[j] = {f(slope), f(std::sqrt(1.0 + slope * slope))};
+    slopes[j] = f(grid.row_slope(j));
   }
   return nodes;
 }

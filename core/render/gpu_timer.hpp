@@ -18,7 +18,7 @@ struct TimerFunctions {
 };
 
 /// The passes that are timed, in the order they run.
-enum class Pass : std::uint8_t { grid, resolve, ray_cast, shade, count };
+enum class Pass : std::uint8_t { grid, ray_cast, shade, count };
 inline constexpr int pass_count = static_cast<int>(Pass::count);
 
 /// GPU time of each pass from time stamps at the pass borders.

@@ -6,9 +6,7 @@
 #include "shaders/full_screen_vert.hpp"
 #include "shaders/pyramid_base_comp.hpp"
 #include "shaders/pyramid_next_comp.hpp"
-#include "shaders/queue_size_comp.hpp"
 #include "shaders/ray_cast_comp.hpp"
-#include "shaders/resolve_comp.hpp"
 #include "shaders/shade_frag.hpp"
 #include "shaders/sweep_comp.hpp"
 
@@ -16,7 +14,6 @@ namespace ridgeline {
 namespace {
 
 constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
-constexpr GLintptr indirect_offset_bytes = 4 * sizeof(std::uint32_t);
 constexpr float sky = 1e30f;
 
 GLuint groups(int count, int size) {
@@ -63,7 +60,7 @@ Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& 
                                 ShaderLog log) {
   const int largest = limit(GL_MAX_TEXTURE_SIZE);
   if (sizes.window_columns > largest || sizes.window_rows > largest || sizes.planes > largest ||
-      limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS) < 4 || limit(GL_MAX_COMPUTE_IMAGE_UNIFORMS) < 1) {
+      limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS) < 3 || limit(GL_MAX_COMPUTE_IMAGE_UNIFORMS) < 1) {
     return Fault::gl_limit_too_small;
   }
   Renderer renderer;
@@ -82,8 +79,6 @@ Status Renderer::make_programs(ShaderLog log) {
   for (const Entry& entry : {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
                              Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
                              Entry{&sweep_, "sweep", shader::sweep_comp},
-                             Entry{&resolve_, "resolve", shader::resolve_comp},
-                             Entry{&queue_size_, "queue_size", shader::queue_size_comp},
                              Entry{&ray_cast_, "ray_cast", shader::ray_cast_comp}}) {
     const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
     if (!made) return made;
@@ -94,7 +89,6 @@ Status Renderer::make_programs(ShaderLog log) {
 
 Status Renderer::make_storage() {
   const int w = sizes_.window_columns, h = sizes_.window_rows;
-  const auto pixels = static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px;
   Status s = take(make_texture(GL_R32F, w, h, 1, 4), posts_);
   if (s) s = take(make_texture(GL_R32F, w / 2, h / 2, limits::top_level, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
@@ -106,8 +100,7 @@ Status Renderer::make_storage() {
   if (s) s = take(make_buffer(ubo, sizeof(shader::GridBlock), GL_DYNAMIC_DRAW), grid_block_);
   if (s) s = take(make_buffer(ubo, sizeof(shader::StyleBlock), GL_DYNAMIC_DRAW), style_block_);
   if (s) s = take(make_buffer(ssbo, sizes_.planes * sizeof(PlaneRecord), GL_DYNAMIC_DRAW), planes_);
-  if (s) s = take(make_buffer(ssbo, sizes_.rows * sizeof(SlopeRecord), GL_DYNAMIC_DRAW), slopes_);
-  if (s) s = take(make_buffer(ssbo, pixels * 16, GL_DYNAMIC_COPY), queue_);
+  if (s) s = take(make_buffer(ssbo, sizes_.rows * sizeof(float), GL_DYNAMIC_DRAW), slopes_);
   if (s) s = take(make_buffer(ssbo, counter_bytes, GL_DYNAMIC_READ), counters_);
   if (s) s = take(make_target(range_), range_target_);
   if (s) s = take(make_target(colour_), colour_target_);
@@ -137,7 +130,7 @@ void Renderer::upload_window(std::span<const float> posts) {
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                            std::span<const SlopeRecord> slopes) {
+                            std::span<const float> slopes) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
   const std::uint32_t zeros[8] = {};
   write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
@@ -149,7 +142,6 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
   glBindBufferBase(ubo, shader::grid_block_binding, grid_block_.name());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
   glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
-  glBindBufferBase(ssbo, shader::queue_buffer, queue_.name());
   glBindBufferBase(ssbo, shader::counters_buffer, counters_.name());
   bind_texture(shader::posts_unit, posts_);
   bind_texture(shader::highest_unit, highest_);
@@ -162,19 +154,10 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glDispatchCompute(groups(static_cast<int>(planes.size()), 32), 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  timer_.stamp(static_cast<int>(Pass::resolve));
-  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
-  glUseProgram(resolve_.name());
-  glDispatchCompute(groups(sizes_.width_px, 8), groups(sizes_.height_px, 8), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  glUseProgram(queue_size_.name());
-  glDispatchCompute(1, 1, 1);
-  glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
   glUseProgram(ray_cast_.name());
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counters_.name());
-  glDispatchComputeIndirect(indirect_offset_bytes);
+  glDispatchCompute(groups(sizes_.width_px, 8), groups(sizes_.height_px, 8), 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }

@@ -21,7 +21,7 @@ struct RenderSizes {
 
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
-  std::uint32_t rays_cast = 0;   ///< pixels the ray cast pass answered
+  std::uint32_t rays_cast = 0;   ///< pixels whose ray was followed through the terrain
   std::uint32_t unresolved = 0;  ///< marches that met their step limit: the frame is void
 };
 
@@ -38,7 +38,7 @@ class Renderer {
 
   /// Draws one frame into the renderer's own targets; `nodes` planes of the grid are swept.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                    std::span<const SlopeRecord> slopes);
+                    std::span<const float> slopes);
   /// Shades the current range picture into the colour target.
   void shade(const FrameBlocks& blocks, const shader::StyleBlock& style);
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
@@ -60,9 +60,9 @@ class Renderer {
   Status make_storage();
 
   RenderSizes sizes_;
-  Program pyramid_base_, pyramid_next_, sweep_, resolve_, queue_size_, ray_cast_, shade_;
+  Program pyramid_base_, pyramid_next_, sweep_, ray_cast_, shade_;
   Texture posts_, highest_, nodes_, range_, colour_, text_;
-  Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, queue_, counters_;
+  Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
   Framebuffer range_target_, colour_target_;
   VertexArray empty_vertices_;
   GpuTimer timer_;

@@ -10,7 +10,7 @@
 namespace ridgeline::sim {
 namespace {
 
-constexpr const char* pass_names[pass_count] = {"grid", "resolve", "ray_cast", "shade"};
+constexpr const char* pass_names[pass_count] = {"grid", "ray_cast", "shade"};
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;

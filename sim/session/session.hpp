@@ -68,7 +68,7 @@ class Session final : public TerrainPort {
   std::optional<TerrainKeeper> terrain_;
   std::vector<float> posts_, scratch_;
   std::vector<PlaneRecord> planes_;
-  std::vector<SlopeRecord> slopes_;
+  std::vector<float> slopes_;
   std::vector<std::uint8_t> text_;
   std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
