@@ -134,8 +134,8 @@ FileResult<GeoidFile> parsed_pgm(const std::string& path, std::span<const std::b
   if (!std::isfinite(offset_m) || !(scale_m > 0) || !header->origin_is_90n_0e) {
     return corrupt(path, "Offset, Scale or Origin is not one a geoid can have");
   }
-  const std::size_t rows = static_cast<std::size_t>(header->rows);
-  const std::size_t columns = static_cast<std::size_t>(header->columns);
+  const auto rows = static_cast<std::size_t>(header->rows);
+  const auto columns = static_cast<std::size_t>(header->columns);
   if (auto problem = size_problem(path, bytes.size(), header->size_bytes + 2 * rows * columns)) {
     return *problem;
   }
@@ -193,7 +193,7 @@ FileResult<GeoidFile> parsed_gtx(const std::string& path, std::span<const std::b
   std::vector<float> posts_m(count);
   const std::byte* at = bytes.data() + header_bytes;
   for (float& post : posts_m) {
-    const float post_m = std::bit_cast<float>(big_endian<std::uint32_t>(at));
+    const auto post_m = std::bit_cast<float>(big_endian<std::uint32_t>(at));
     at += sizeof(float);
     const bool no_data = post_m == gtx_no_data;  // exactly: -88.9 m is a height the geoid has
     if (!no_data && !(std::abs(post_m) <= static_cast<float>(largest_undulation_m))) {

@@ -13,8 +13,8 @@ constexpr double edge_deg = 1e-9;
 constexpr double unknown_m = std::numeric_limits<double>::quiet_NaN();
 
 double post_m(const GeoidGrid& grid, int row, int column) {
-  const std::size_t columns = static_cast<std::size_t>(grid.columns);
-  const std::size_t at = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto at = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
   return static_cast<double>(grid.posts_m[at]);
 }
 

@@ -145,7 +145,7 @@ Result<HeightTile> parse_dted(std::span<const std::byte> bytes) {
   const Result<PostGrid> grid = dted_grid(bytes, bytes.size());
   if (!grid.ok()) return grid.fault();
   const std::size_t stride = dted_record_bytes(grid.value().rows);
-  const std::uint32_t columns = static_cast<std::uint32_t>(grid.value().columns);
+  const auto columns = static_cast<std::uint32_t>(grid.value().columns);
   for (std::uint32_t column = 0; column < columns; ++column) {
     const Status record =
         verified_record(bytes.subspan(dted_header_bytes + column * stride, stride), column);

@@ -42,13 +42,13 @@ void read_posts(const HeightTile& tile, int row, int column, std::span<float> ou
   RL_ASSERT(column >= 0 && column <= grid.columns);
   RL_ASSERT(out.size() <= static_cast<std::size_t>(grid.columns - column));
   if (out.empty()) return;
-  const std::size_t columns = static_cast<std::size_t>(grid.columns);
-  const std::size_t first_column = static_cast<std::size_t>(column);
-  const std::size_t row_from_south = static_cast<std::size_t>(row);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto first_column = static_cast<std::size_t>(column);
+  const auto row_from_south = static_cast<std::size_t>(row);
   const std::byte* at = tile.bytes.data();
   switch (tile.layout) {
     case TileLayout::hgt_int16_be: {
-      const std::size_t row_from_north = static_cast<std::size_t>(grid.rows - 1 - row);
+      const auto row_from_north = static_cast<std::size_t>(grid.rows - 1 - row);
       at += 2 * (row_from_north * columns + first_column);
       for (float& height_m : out) {
         height_m = hgt_height_m(at);

@@ -4,6 +4,7 @@
 #include <gdal.h>
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
+#include <proj.h>
 
 #include <algorithm>
 #include <cctype>
@@ -168,12 +169,12 @@ FileResult<Raster> opened_raster(const std::string& path, const QuietGdal& gdal)
 void scale_posts(GDALRasterBandH band, std::vector<float>& posts_m) {
   int has_no_data = 0;
   const double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
-  const float no_data_sample = static_cast<float>(no_data);
+  const auto no_data_sample = static_cast<float>(no_data);
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset_m = GDALGetRasterOffset(band, nullptr);
   for (float& post : posts_m) {
     const bool no_height = has_no_data != 0 && post == no_data_sample;
-    const float height_m = static_cast<float>(offset_m + scale * static_cast<double>(post));
+    const auto height_m = static_cast<float>(offset_m + scale * static_cast<double>(post));
     const bool known = height_m >= lowest_post_m && height_m <= highest_post_m;  // false for NaN
     post = known && !no_height ? height_m : unknown_m;
   }
@@ -191,7 +192,7 @@ void forget_holes(GDALRasterBandH band, const PostGrid& grid, std::vector<float>
       const int status = GDALGetDataCoverageStatus(band, column, row, width, height, 0, nullptr);
       if ((status & GDAL_DATA_COVERAGE_STATUS_EMPTY) == 0) continue;
       for (int y = row; y < row + height; ++y) {
-        const std::size_t at = static_cast<std::size_t>(y) * grid.columns + column;
+        const auto at = static_cast<std::size_t>(y) * grid.columns + column;
         std::fill_n(posts_m.begin() + static_cast<std::ptrdiff_t>(at), width, unknown_m);
       }
     }
@@ -238,6 +239,8 @@ PostAxis snapped_axis(PostAxis axis, int count) {
 
 GeotiffReader::GeotiffReader() {
   GDALRegister_GTiff();
+  // PROJ prints damaged coordinate systems past GDAL's error handler; new contexts copy this one.
+  proj_log_level(PJ_DEFAULT_CTX, PJ_LOG_NONE);
 }
 
 bool GeotiffReader::accepts(const std::string& path) const {
