@@ -87,10 +87,16 @@ Cell cell_at(ivec2 cell) {
   return r;
 }
 
+// South-west texel of a pyramid level in the one texture that holds them all: level 1 stands at the
+// left, the others above each other to its right.
+ivec2 pyramid_corner(ivec2 posts, int level) {
+  return level < 2 ? ivec2(0) : ivec2(posts.x >> 1, (posts.y >> 1) - (posts.y >> (level - 1)));
+}
+
 // Highest height over the eye in the node of `level` that holds `cell`, its overlap included.
 float node_highest(ivec2 cell, int level) {
   ivec2 node = clamp((window.xy + cell) >> level, ivec2(0), (window.zw >> level) - 1);
-  return over_eye(texelFetch(highest_texture, node, level - 1).r);
+  return over_eye(texelFetch(highest_texture, node + pyramid_corner(window.zw, level), 0).r);
 }
 
 // Distance along the track (in the unit of 1/rate) until the point leaves the node.

@@ -90,7 +90,7 @@ Status Renderer::make_programs(ShaderLog log) {
 Status Renderer::make_storage() {
   const int w = sizes_.window_columns, h = sizes_.window_rows;
   Status s = take(make_texture(GL_R32F, w, h, 1, 4), posts_);
-  if (s) s = take(make_texture(GL_R32F, w / 2, h / 2, limits::top_level, 4), highest_);
+  if (s) s = take(make_texture(GL_R32F, w / 2 + w / 4, h / 2, 1, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
   if (s) s = take(make_texture(GL_R32UI, sizes_.width_px, sizes_.height_px, 1, 4), range_);
   if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
@@ -115,18 +115,26 @@ void Renderer::upload_window(std::span<const float> posts) {
   bind_texture(shader::posts_unit, posts_);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.window_columns, sizes_.window_rows, GL_RED,
                   GL_FLOAT, posts.data());
-  bind_texture(shader::highest_unit, highest_);
+  glBindImageTexture(shader::target_image, highest_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
   int w = sizes_.window_columns / 2, h = sizes_.window_rows / 2;
-  for (int level = 0; level < limits::top_level; ++level) {
-    glUseProgram(level == 0 ? pyramid_base_.name() : pyramid_next_.name());
-    if (level > 0) glUniform1i(0, level - 1);
-    glBindImageTexture(shader::target_image, highest_.name(), level, GL_FALSE, 0, GL_WRITE_ONLY,
-                       GL_R32F);
-    glDispatchCompute(groups(w, 8), groups(h, 8), 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glUseProgram(pyramid_base_.name());
+  glDispatchCompute(groups(w, 8), groups(h, 8), 1);
+  glUseProgram(pyramid_next_.name());
+  for (int level = 2; level <= limits::top_level; ++level) {
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     w /= 2;
     h /= 2;
+    const glm::ivec2 below = pyramid_corner(level - 1), here = pyramid_corner(level);
+    glUniform4i(0, below.x, below.y, here.x, here.y);
+    glUniform2i(1, w, h);
+    glDispatchCompute(groups(w, 8), groups(h, 8), 1);
   }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+glm::ivec2 Renderer::pyramid_corner(int level) const {
+  const int w = sizes_.window_columns, h = sizes_.window_rows;
+  return level < 2 ? glm::ivec2(0) : glm::ivec2(w / 2, h / 2 - (h >> (level - 1)));
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,

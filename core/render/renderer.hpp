@@ -58,6 +58,8 @@ class Renderer {
   Renderer() = default;
   Status make_programs(ShaderLog log);
   Status make_storage();
+  /// Where a pyramid level stands in its texture; the same rule is in shaders/terrain.glsl.
+  [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
   Program pyramid_base_, pyramid_next_, sweep_, ray_cast_, shade_;
