@@ -6,7 +6,7 @@
 #include "shaders/full_screen_vert.hpp"
 #include "shaders/pyramid_base_comp.hpp"
 #include "shaders/pyramid_next_comp.hpp"
-#include "shaders/ray_cast_comp.hpp"
+#include "shaders/ray_cast_frag.hpp"
 #include "shaders/shade_frag.hpp"
 #include "shaders/sweep_comp.hpp"
 
@@ -78,11 +78,14 @@ Status Renderer::make_programs(ShaderLog log) {
   };
   for (const Entry& entry : {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
                              Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
-                             Entry{&sweep_, "sweep", shader::sweep_comp},
-                             Entry{&ray_cast_, "ray_cast", shader::ray_cast_comp}}) {
+                             Entry{&sweep_, "sweep", shader::sweep_comp}}) {
     const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
     if (!made) return made;
   }
+  const Status made =
+      take(make_draw_program("ray_cast", shader::full_screen_vert, shader::ray_cast_frag, log),
+           ray_cast_);
+  if (!made) return made;
   return take(make_draw_program("shade", shader::full_screen_vert, shader::shade_frag, log),
               shade_);
 }
@@ -163,11 +166,19 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  glBindImageTexture(shader::target_image, range_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
-  glUseProgram(ray_cast_.name());
-  glDispatchCompute(groups(sizes_.width_px, 8), groups(sizes_.height_px, 8), 1);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
-                  GL_BUFFER_UPDATE_BARRIER_BIT);
+  fill_target(range_target_, ray_cast_);
+}
+
+void Renderer::fill_target(const Framebuffer& target, const Program& program) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+  glViewport(0, 0, sizes_.width_px, sizes_.height_px);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DITHER);
+  glUseProgram(program.name());
+  glBindVertexArray(empty_vertices_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -189,15 +200,7 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  glBindFramebuffer(GL_FRAMEBUFFER, colour_target_.name());
-  glViewport(0, 0, sizes_.width_px, sizes_.height_px);
-  glDisable(GL_BLEND);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_DITHER);
-  glUseProgram(shade_.name());
-  glBindVertexArray(empty_vertices_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  fill_target(colour_target_, shade_);
   timer_.stamp(pass_count);
   glFlush();
 }

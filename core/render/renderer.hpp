@@ -58,6 +58,7 @@ class Renderer {
   Renderer() = default;
   Status make_programs(ShaderLog log);
   Status make_storage();
+  void fill_target(const Framebuffer& target, const Program& program);
   /// Where a pyramid level stands in its texture; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 

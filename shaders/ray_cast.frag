@@ -1,11 +1,10 @@
 // Ray cast pass: the first hit of every pixel's own ray, from where the grid proves it must start.
 // Exact up to rounding: an error of the grid can cost time, never a pixel.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
-layout(r32ui, binding = target_image) writeonly uniform highp uimage2D range_image;
-layout(std430, binding = counters_buffer) buffer Counters { uint counters[]; };
+layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
-const int step_limit = 200000;
+const int step_limit = 200000;   // ten times the steps of the longest ray
+const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
 
 // Ground distance up to which the wedge round this direction is empty at its slope and above.
 float proven_empty(vec3 direction) {
@@ -87,13 +86,11 @@ float first_hit(Ray r, float start, int level) {
     parent = (window.xy + cell) >> 1;
     t += leave;
   }
-  atomicAdd(counters[1], 1u);
-  return sky;
+  return unresolved;
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= int(ray_dx.w) || pixel.y >= int(ray_dy.w)) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);  // row 0 of the target is the top of the picture
   vec3 direction = pixel_ray(vec2(pixel));
   float empty = proven_empty(direction);
   float value = sky;
@@ -103,5 +100,5 @@ void main() {
     bool at_hit = empty > 0.0 && empty < tolerance.x;
     value = first_hit(r, max(start, 0.0), at_hit ? 0 : int(heights.z));
   }
-  imageStore(range_image, pixel, uvec4(floatBitsToUint(value)));
+  range_bits = floatBitsToUint(value);
 }
