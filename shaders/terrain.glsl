@@ -60,10 +60,9 @@ struct Cell {
 
 Cell cell_at(ivec2 cell) {
   ivec2 p = clamp(window.xy + cell, ivec2(0), window.zw - 2);
-  float a = texelFetch(posts_texture, p, 0).r;
-  float b = texelFetch(posts_texture, p + ivec2(1, 0), 0).r;
-  float c = texelFetch(posts_texture, p + ivec2(0, 1), 0).r;
-  float d = texelFetch(posts_texture, p + ivec2(1, 1), 0).r;
+  // One gather for the four posts: the point where they meet is half a texel from any other choice.
+  vec4 corners = textureGather(posts_texture, (vec2(p) + 1.0) / vec2(window.zw));
+  float a = corners.w, b = corners.z, c = corners.x, d = corners.y;
   Cell r;
   float low = min(min(a, b), min(c, d));
   if (low < void_threshold) {
