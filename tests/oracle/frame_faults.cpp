@@ -32,7 +32,7 @@ void check_axes(const Frame& frame, std::vector<std::string>& faults) {
 void check_distances(const Frame& frame, std::vector<std::string>& faults) {
   std::size_t impossible = 0;
   std::size_t too_far = 0;
-  const float limit = static_cast<float>(frame.range_m * (1 + 1e-4));
+  const auto limit = static_cast<float>(frame.range_m * (1 + 1e-4));
   for (const float z : frame.range) {
     if (std::isnan(z) || z == std::numeric_limits<float>::infinity()) continue;
     if (!(z >= 0)) ++impossible;

@@ -47,8 +47,9 @@ struct Judge::Search {
   ImagePoint smallest[3] = {};
   double nearest_m = infinity;
   double farthest_m = 0;
+  ImagePoint nearest;
+  ImagePoint farthest;
   bool met_unknown = false;  ///< some ray passed unknown ground, so surfaces may end abruptly
-  int rays = 0;
 
   [[nodiscard]] bool done() const { return proved[0] && proved[1] && proved[2]; }
   [[nodiscard]] double radius_px() const {
@@ -65,9 +66,14 @@ Judge::Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& fra
 
 void Judge::add(Search& search, const ImagePoint& offset) const {
   const FirstHit hit = tracer_.first_hit(camera_.direction(search.centre + offset));
-  ++search.rays;
-  search.nearest_m = std::min(search.nearest_m, hit.distance_m);
-  search.farthest_m = std::max(search.farthest_m, hit.distance_m);
+  if (hit.distance_m < search.nearest_m) {
+    search.nearest_m = hit.distance_m;
+    search.nearest = offset;
+  }
+  if (hit.distance_m > search.farthest_m) {
+    search.farthest_m = hit.distance_m;
+    search.farthest = offset;
+  }
   search.met_unknown = search.met_unknown || hit.may_be_unknown;
   const Claims claims = claims_of(search.z, hit, eta);
   const bool proves[3] = {claims.near, claims.far, claims.permitted};
@@ -102,6 +108,18 @@ void Judge::search_rings(Search& search, double from, double to, int rings, int 
   }
 }
 
+void Judge::search_around_extremes(Search& search) const {
+  for (double step = 0.1 * bound_px_; step > 1e-3 * bound_px_ && !search.done(); step *= 0.5) {
+    for (int direction = 0; direction < 16 && !search.done(); ++direction) {
+      // Even turns go on from the nearest hit so far, odd ones from the farthest.
+      const int turn = direction / 2;
+      const ImagePoint start = direction % 2 == 0 ? search.nearest : search.farthest;
+      const ImagePoint offset = start + step * turned(search.down, 0.25 * pi * turn);
+      if (size_of(offset) < bound_px_) add(search, offset);
+    }
+  }
+}
+
 void Judge::refine_error(Search& search) const {
   // Halving towards the centre, claim by claim, tells the error to about a sixteenth of the bound.
   const double goal = bound_px_ / 16;
@@ -121,6 +139,7 @@ void Judge::refine_error(Search& search) const {
 struct Judge::Arc {
   ImagePoint middle;        ///< unit, towards the middle of the arc
   double cap_m = 0;         ///< how far along the rays the surface matters
+  double safe_cap_m = 0;    ///< the same, moved so that an exclusion holds for the whole disc
   double px_per_slope = 0;  ///< image distance that lifts a ray by one m per m
   double steepness = 0;     ///< px of clearance that one px along the arc can change at most
 };
@@ -137,13 +156,13 @@ Judge::ArcResult Judge::search_arc(Search& search, bool upper) const {
   const double turn_rad_per_px = length(turned_ray - direction) / step_px;
   const double disc_rad = 2 * bound_px_ * turn_rad_per_px;
   if (search.met_unknown || cosine < 0.2 || disc_rad > 0.05) return ArcResult::not_applicable;
-  // Rays of one vertical plane reach the same ground at distances that differ by this much, so the
-  // cap moves to the side that makes an exclusion harder.
+  // Rays of one vertical plane reach the same ground at distances that differ by this much.
   const double stretch = 1.1 * disc_rad * std::abs(sine) / cosine + 0.5 * disc_rad * disc_rad;
   if (search.z == infinity) {
-    arc.cap_m = tracer_.range_m();
+    arc.cap_m = arc.safe_cap_m = tracer_.range_m();
   } else {
-    arc.cap_m = upper ? search.z * (1 - eta) * (1 - stretch) : search.z * (1 + eta) * (1 + stretch);
+    arc.cap_m = search.z * (upper ? 1 - eta : 1 + eta);
+    arc.safe_cap_m = arc.cap_m * (upper ? 1 - stretch : 1 + stretch);
   }
   arc.px_per_slope = cosine / turn_rad_per_px;
   arc.steepness = 1.05 * std::hypot(1.0, std::clamp(tracer_.terrain().steepest(), 1.0, 30.0));
@@ -157,11 +176,12 @@ Judge::ArcResult Judge::halve_arc(Search& search, bool upper, const Arc& arc) co
   };
   constexpr int first_parts = 8;
   std::vector<Part> parts;
+  parts.reserve(64);
   for (int i = 0; i < first_parts; ++i) {
     parts.push_back({pi * i / first_parts - pi / 2, pi * (i + 1) / first_parts - pi / 2});
   }
   const double ceiling = 2 * arc.steepness * bound_px_ / arc.px_per_slope;
-  bool all_excluded = true;
+  bool excluded_in_disc = true;
   int budget = 400;
   while (!parts.empty()) {
     const Part part = parts.back();
@@ -169,23 +189,26 @@ Judge::ArcResult Judge::halve_arc(Search& search, bool upper, const Arc& arc) co
     const double angle = 0.5 * (part.from + part.to);
     const double reach_px = 0.5 * (part.to - part.from) * bound_px_;
     const ImagePoint offset = bound_px_ * (1 - 1e-9) * turned(arc.middle, angle);
-    const double clear_px =
-        arc.px_per_slope *
-        tracer_.clearance(camera_.direction(search.centre + offset), arc.cap_m, ceiling);
+    const Vec3 ray = camera_.direction(search.centre + offset);
     // Seen from the claim: how far this ray is from proving it.
-    const double lacking_px = upper ? -clear_px : clear_px;
-    if (lacking_px <= 0) {
-      add(search, offset);
-      if (search.proved[upper ? 1 : 0]) return ArcResult::proved;
-      all_excluded = false;
+    const auto lacking_px = [&](double cap_m) {
+      return (upper ? -1 : 1) * arc.px_per_slope * tracer_.clearance(ray, cap_m, ceiling);
+    };
+    if (lacking_px(arc.safe_cap_m) > arc.steepness * reach_px) continue;
+    const double lacking = lacking_px(arc.cap_m);
+    if (lacking > arc.steepness * reach_px) {
+      excluded_in_disc = false;  // on the arc itself only
       continue;
     }
-    if (lacking_px > arc.steepness * reach_px) continue;
+    if (lacking <= 0) {
+      add(search, offset);
+      if (search.proved[upper ? 1 : 0]) return ArcResult::proved;
+    }
     if (--budget == 0 || reach_px < 1e-4 * bound_px_) return ArcResult::grazing;
     parts.push_back({part.from, angle});
     parts.push_back({angle, part.to});
   }
-  return all_excluded ? ArcResult::excluded : ArcResult::not_applicable;
+  return excluded_in_disc ? ArcResult::excluded : ArcResult::not_applicable;
 }
 
 bool Judge::holds_by_a_hair(const Search& search) const {
@@ -233,6 +256,7 @@ void Judge::judge_soundness(int u, int v, Judgement& judgement) const {
   }
   if (!search.done() && !excluded) {
     search_rings(search, bound_px_ * (1 - 1e-9), 0.1 * bound_px_, 7, 56);
+    search_around_extremes(search);
   }
   if (search.done()) {
     refine_error(search);

@@ -36,7 +36,7 @@ struct Judgement {
 /// and the highest last, so only the lower and the upper arc matter, and along an arc the clearance
 /// over the terrain cannot change faster than the steepest slope allows. Halving the arc until each
 /// part either holds a hit or is too clear (or too deep) to hold one decides the claim. Where this
-/// argument does not apply (near the nadir, beside unknown ground) some 400 rays decide; where it
+/// argument does not apply (near the nadir, beside unknown ground) some 500 rays decide; where it
 /// ends within a thousandth of a pixel of the surface without a ray that proves the claim, the
 /// claim is undecided.
 ///
@@ -65,6 +65,7 @@ class Judge {
   void judge_soundness(int u, int v, Judgement& judgement) const;
   void search_small_crosses(Search& search) const;
   void search_rings(Search& search, double from, double to, int rings, int rays) const;
+  void search_around_extremes(Search& search) const;
   void refine_error(Search& search) const;
   [[nodiscard]] ArcResult search_arc(Search& search, bool upper) const;
   [[nodiscard]] ArcResult halve_arc(Search& search, bool upper, const Arc& arc) const;

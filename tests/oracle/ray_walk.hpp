@@ -176,7 +176,7 @@ class RayWalk {
       const Piece piece{&stretch_, &height_, &x_, &y_, from, to};
       if (visitor_.skips(summary(row_0, row_1, column_0, column_1), piece)) return false;
     }
-    if (extent <= (accelerated ? 6 : 40) || to - from < 1e-9) return walk_cells(from, to, x, y);
+    if (extent <= (accelerated ? 6 : 40) || to - from < 1e-9) return walk_cells(from, to);
     const double middle = 0.5 * (from + to);
     return walk_interval(from, middle) || walk_interval(middle, to);
   }
@@ -210,20 +210,17 @@ class RayWalk {
   /// Appends where a coordinate in cells takes a whole value.
   static void append_lines(const Quartic& coordinate, double from, double to, Cuts& cuts) {
     const Range range = range_of(coordinate, from, to);
-    for (double line = std::ceil(range.low); line <= range.high; ++line) {
+    const int last = static_cast<int>(std::floor(range.high));
+    for (int line = static_cast<int>(std::ceil(range.low)); line <= last; ++line) {
       append_crossings(coordinate, line, from, to, cuts);
     }
   }
 
-  bool walk_cells(double from, double to, const Range& x, const Range& y) {
+  bool walk_cells(double from, double to) {
     Cuts& cuts = cell_cuts_;
     cuts.clear();
-    for (double line = std::ceil(x.low); line <= x.high; ++line) {
-      append_crossings(x_, line, from, to, cuts);
-    }
-    for (double line = std::ceil(y.low); line <= y.high; ++line) {
-      append_crossings(y_, line, from, to, cuts);
-    }
+    append_lines(x_, from, to, cuts);
+    append_lines(y_, from, to, cuts);
     sort_cuts(cuts, from, to);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (cuts[i + 1] <= cuts[i]) continue;

@@ -136,12 +136,14 @@ double undulation_spread_m(const Geoid& geoid, double south, double north, doubl
   if (geoid.is_none()) return 0;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  constexpr int samples = 5;
-  for (int i = 0; i < samples * samples; ++i) {
-    const double n = geoid.at(south + (north - south) * (i / samples) / (samples - 1),
-                              west + (east - west) * (i % samples) / (samples - 1));
-    low = std::min(low, n);
-    high = std::max(high, n);
+  constexpr int steps = 4;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      const double n =
+          geoid.at(south + (north - south) * i / steps, west + (east - west) * j / steps);
+      low = std::min(low, n);
+      high = std::max(high, n);
+    }
   }
   return 2 * (high - low);
 }

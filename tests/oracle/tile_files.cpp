@@ -106,10 +106,8 @@ Tile read_hgt(const std::filesystem::path& file) {
   const Bytes bytes = file_bytes(file);
   Tile tile;
   tile.name = file.filename().string();
-  for (const int side : {1201, 3601}) {
-    if (bytes.size() == 2U * static_cast<unsigned>(side) * static_cast<unsigned>(side)) {
-      tile.rows = tile.columns = side;
-    }
+  for (const std::size_t side : {1201U, 3601U}) {
+    if (bytes.size() == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
   }
   if (tile.rows == 0)
     throw InputError(file.string(), "size is neither 1201 nor 3601 posts squared");

@@ -100,7 +100,7 @@ TEST_F(Dump, fields_of_the_wrong_kind_are_refused) {
       {"eye", 5}};
   for (const auto& [field, value] : wrong) {
     scenes::write_frame(folder_.path(), small_frame());
-    edit([&](nlohmann::json& root) { root[field] = value; });
+    edit([&name = field, &content = value](nlohmann::json& root) { root[name] = content; });
     EXPECT_FALSE(refusal().empty()) << field;
   }
   std::ofstream(json()) << "{ not json";

@@ -17,7 +17,8 @@ TEST(RayPath, stretches_follow_the_exact_ray) {
         const Vec3 ray = camera_axes(level, 0, pitch, heading).forward;
         const double end = stretch_length_m(eye);
         const Stretch part = stretch(eye, ray, 0, end, 179.9);
-        for (double s = -1; s <= 1; s += 0.0625) {
+        for (int step = -16; step <= 16; ++step) {
+          const double s = step / 16.0;
           const Geodetic g = geodetic_from_ecef(eye + part.distance_m(s) * ray);
           const Geodetic fitted{part.lat_deg.at(s), part.lon_deg.at(s), part.height_m.at(s)};
           EXPECT_LT(length(ecef_from_geodetic(fitted) - ecef_from_geodetic(g)), 1e-6);

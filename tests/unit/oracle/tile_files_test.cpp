@@ -38,7 +38,7 @@ std::string dted(const std::string& lon, const std::string& lat, int columns, in
     append_16(record, static_cast<unsigned>(column));
     append_16(record, 0);
     for (int row = 0; row < rows; ++row) {
-      unsigned raw = static_cast<unsigned>(100 * column + row);
+      auto raw = static_cast<unsigned>(100 * column + row);
       if (column == 0 && row == 0) raw = first_post;
       if (column == columns - 1 && row == rows - 1) raw = 0xFFFFU;
       append_16(record, raw);

@@ -15,11 +15,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Distance to an ellipsoid with both semi-axes longer by `raised_m`, in closed form; +inf if
 /// missed.
 double ellipsoid_hit_m(const Vec3& eye, const Vec3& ray) {
-  const long double a = semi_major_m;
-  const long double b = semi_minor_m;
+  using Long = long double;
+  const auto a = static_cast<Long>(semi_major_m);
+  const auto b = static_cast<Long>(semi_minor_m);
   const auto product = [&](const Vec3& p, const Vec3& q) {
-    return (static_cast<long double>(p.x) * q.x + static_cast<long double>(p.y) * q.y) / (a * a) +
-           static_cast<long double>(p.z) * q.z / (b * b);
+    const Long level = static_cast<Long>(p.x) * static_cast<Long>(q.x) +
+                       static_cast<Long>(p.y) * static_cast<Long>(q.y);
+    return level / (a * a) + static_cast<Long>(p.z) * static_cast<Long>(q.z) / (b * b);
   };
   const long double qa = product(ray, ray);
   const long double qb = product(eye, ray);
