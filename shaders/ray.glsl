@@ -37,11 +37,11 @@ RayPoint ray_point(Ray r, float t) {
   return p;
 }
 
-// The bilinear cell seen along the ray: ray minus surface = c + b t + a t t from the point on.
-vec3 gap_along(Cell q, vec2 f, vec2 rate, Ray r, RayPoint p) {
-  float h0 = q.h00 + q.dx * f.x + q.dy * f.y + q.dxy * f.x * f.y;
-  float h1 = q.dx * rate.x + q.dy * rate.y + q.dxy * (f.x * rate.y + f.y * rate.x);
-  float h2 = q.dxy * rate.x * rate.y;
-  return vec3(p.height - h0, p.height_rate - h1,
-              0.5 * r.along * r.along * r.inverse_radius - h2);
+// The bilinear cell seen along a ray: ray minus surface = x + y t + z t t from the point on.
+// height, climb, bend: of the ray there; its height is height + climb t + bend t t.
+vec3 gap_along(Cell c, vec2 f, vec2 rate, float height, float climb, float bend) {
+  float h0 = c.h00 + c.dx * f.x + c.dy * f.y + c.dxy * f.x * f.y;
+  float h1 = c.dx * rate.x + c.dy * rate.y + c.dxy * (f.x * rate.y + f.y * rate.x);
+  float h2 = c.dxy * rate.x * rate.y;
+  return vec3(height - h0, climb - h1, bend - h2);
 }

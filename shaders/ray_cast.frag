@@ -36,22 +36,55 @@ float distance_at(Ray r, float g) {
   return r.eye_radius * s / (c * r.along - r.up * s);
 }
 
+// A ray as polynomials in s = distance / range: one step costs a dozen products, no division.
+// posts = eye + s p1 + ... + s^5 p5; height over the eye = s h.x + ... + s^4 h.w.
+struct Course { vec2 p1, p2, p3, p4, p5; vec4 h; };
+
+// With tau = t / eye_radius and a, u the ray's horizontal and upward part (a a + u u = 1):
+//   g / R           = a (tau - u tau^2 + (4uu - 1)/3 tau^3 - (2uu - 1) u tau^4 ...)
+//   height / radius = u tau + a a/2 tau^2 - u a a/2 tau^3 + (5uu - 1) a a/8 tau^4 ...
+// composed with the ground map; docs/error_bound.md, section 4, bounds what is left out.
+Course course_of(Ray r) {
+  Track c = track_of(r.azimuth.x, r.azimuth.y);
+  float e = 1.0 / (tolerance.z * r.eye_radius);  // range / eye radius
+  float a = r.along, u = r.up, uu = u * u, aa = a * a;
+  float k = a * tolerance.z / r.inverse_radius;  // g in ranges per tau
+  float k1 = k * e;
+  float k2 = -k * u * e * e;
+  float k3 = k * (4.0 * uu - 1.0) * (1.0 / 3.0) * e * e * e;
+  float k4 = -k * (2.0 * uu - 1.0) * u * e * e * e * e;
+  Course q;
+  q.p1 = c.c1 * k1;
+  q.p2 = c.c1 * k2 + c.c2 * (k1 * k1);
+  q.p3 = c.c1 * k3 + c.c2 * (2.0 * k1 * k2) + c.c3 * (k1 * k1 * k1);
+  q.p4 = c.c1 * k4 + c.c2 * (k2 * k2 + 2.0 * k1 * k3) + c.c3 * (3.0 * k1 * k1 * k2) +
+         c.c4 * (k1 * k1 * k1 * k1);
+  q.p5 = c.c2 * (2.0 * (k1 * k4 + k2 * k3)) + c.c3 * (3.0 * k1 * (k1 * k3 + k2 * k2)) +
+         c.c4 * (4.0 * k1 * k1 * k1 * k2) + c.c5 * (k1 * k1 * k1 * k1 * k1);
+  float length_scale = r.eye_radius * e;  // the range
+  q.h = length_scale * vec4(u, 0.5 * aa * e, -0.5 * u * aa * e * e,
+                            0.125 * (5.0 * uu - 1.0) * aa * e * e * e);
+  return q;
+}
+
 // Distance of the first known surface or, negative, of the first unknown floor; `sky` if none.
 float first_hit(Ray r, float start, int level) {
-  Track track = track_of(r.azimuth.x, r.azimuth.y);
+  Course q = course_of(r);
   float range = ray_origin.w;
   float ceiling = over_eye(heights.x) + 1.0;
+  float bend = 0.5 * r.along * r.along * r.inverse_radius;
   int top_level = int(heights.z);
   float t = start;
   if (r.up < 0.0) t = max(t, ceiling / r.up);  // over the highest post until here
   ivec2 parent = ivec2(-1000000);
   for (int steps = 0; steps < step_limit; ++steps) {
     if (t > range) return sky;
-    RayPoint p = ray_point(r, t);
-    if (p.height > ceiling && p.height_rate >= 0.0) return sky;
-    float u = p.g * tolerance.z;
-    vec2 at = track_posts(track, u);
-    vec2 rate = track_rate(track, u) * p.g_rate;
+    float s = t * tolerance.z;
+    float height = s * (q.h.x + s * (q.h.y + s * (q.h.z + s * q.h.w)));
+    float climb = tolerance.z * (q.h.x + s * (2.0 * q.h.y + s * (3.0 * q.h.z)));
+    if (height > ceiling && climb >= 0.0) return sky;
+    vec2 at = eye.xy + s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
+    vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
     vec2 whole = floor(at);
     ivec2 cell = ivec2(whole);
     // Up a level when the step has left the parent node, so that long clear ways take few steps.
@@ -61,9 +94,9 @@ float first_hit(Ray r, float start, int level) {
     float leave = min(exit_distance(cell, level, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * t);
     if (level > 0) {
       // The height of a ray is convex in t: it stays above its tangent.
-      float lowest = p.height + min(p.height_rate, 0.0) * leave;
+      float lowest = height + min(climb, 0.0) * leave;
       float k = node_highest(cell, level);
-      if (lowest > k + 1.0e-6 * (abs(k) + abs(p.height)) + 1.0e-5) {
+      if (lowest > k + 1.0e-6 * (abs(k) + abs(height)) + 1.0e-5) {
         parent = (window.xy + cell) >> (level + 1);
         t += leave;
       } else {
@@ -71,8 +104,8 @@ float first_hit(Ray r, float start, int level) {
       }
       continue;
     }
-    Cell q = cell_at(cell);
-    vec3 gap = gap_along(q, at - whole, rate, r, p);
+    Cell c = cell_at(cell);
+    vec3 gap = gap_along(c, at - whole, rate, height, climb, bend);
     float hit = 0.0;
     if (gap.x > 0.0) {
       float disc = gap.y * gap.y - 4.0 * gap.z * gap.x;
@@ -81,7 +114,7 @@ float first_hit(Ray r, float start, int level) {
     }
     if (hit <= leave) {
       t += hit;
-      return t > range ? sky : (q.unknown ? -t : t);
+      return t > range ? sky : (c.unknown ? -t : t);
     }
     parent = (window.xy + cell) >> 1;
     t += leave;
