@@ -4,6 +4,7 @@ layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
 const int step_limit = 200000;   // ten times the steps of the longest ray
+const float proven_sky = 1.5e30;  // no ray was cast: the grid proves the wedge empty
 const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
 
 // Ground distance up to which the wedge round this direction is empty at its slope and above.
@@ -126,7 +127,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);  // row 0 of the target is the top of the picture
   vec3 direction = pixel_ray(vec2(pixel));
   float empty = proven_empty(direction);
-  float value = sky;
+  float value = proven_sky;
   if (empty < sky) {
     Ray r = make_ray(direction);
     float start = empty > 0.0 ? distance_at(r, empty) * (1.0 - 1.0e-6) - 1.0e-3 : 0.0;

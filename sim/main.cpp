@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   add_pose_command(program, status);
   add_replay_command(program, status);
   add_import_command(program, status);
+  add_bench_command(program, status);
   add_verify_command(program, status);
   add_make_demo_command(program, status);
   try {

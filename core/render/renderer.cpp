@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "shaders/count_comp.hpp"
 #include "shaders/full_screen_vert.hpp"
 #include "shaders/pyramid_base_comp.hpp"
 #include "shaders/pyramid_next_comp.hpp"
@@ -76,9 +77,10 @@ Status Renderer::make_programs(ShaderLog log) {
     Program* program;
     std::string_view name, source;
   };
-  for (const Entry& entry : {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
-                             Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
-                             Entry{&sweep_, "sweep", shader::sweep_comp}}) {
+  for (const Entry& entry :
+       {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
+        Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
+        Entry{&sweep_, "sweep", shader::sweep_comp}, Entry{&count_, "count", shader::count_comp}}) {
     const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
     if (!made) return made;
   }
@@ -167,6 +169,10 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
   fill_target(range_target_, ray_cast_);
+  bind_texture(shader::range_unit, range_);
+  glUseProgram(count_.name());
+  glDispatchCompute(groups(sizes_.height_px, 16), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void Renderer::fill_target(const Framebuffer& target, const Program& program) {

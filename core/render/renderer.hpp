@@ -63,7 +63,7 @@ class Renderer {
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program pyramid_base_, pyramid_next_, sweep_, ray_cast_, shade_;
+  Program pyramid_base_, pyramid_next_, sweep_, ray_cast_, count_, shade_;
   Texture posts_, highest_, nodes_, range_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
   Framebuffer range_target_, colour_target_;

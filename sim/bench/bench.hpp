@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/session/session.hpp"
+
+namespace ridgeline::sim {
+
+struct BenchOptions {
+  SceneOptions scene;
+  std::string log_file;     ///< views from a flight; empty: fixed views over the middle tile
+  std::string json_file;    ///< empty: only the table
+  int repeats = 7;          ///< frames a view and method, after one that is not counted
+  int judged_pixels = 400;  ///< a view and method, judged by the oracle
+};
+
+/// One place to measure at.
+struct BenchView {
+  std::string name;
+  FrameInput input;
+};
+
+/// Fixed views round the middle of a terrain folder: grazing low, valley, high, steep down, banked,
+/// wide horizon. Empty when the folder holds no known post there.
+std::vector<BenchView> fixed_views(const std::string& terrain_folder);
+
+/// Evenly spaced moments of a recorded flight at which terrain can be drawn.
+std::vector<BenchView> log_views(const std::string& log_file, const BusProfile& profile, int count);
+
+/// Measures every method at every view, the methods interleaved frame by frame so that noise hits
+/// all alike, and judges each with the oracle. Prints a Markdown table.
+/// Outcome: the message names the file and what is wrong with it.
+Outcome bench(const BenchOptions& options);
+
+}  // namespace ridgeline::sim

@@ -1,0 +1,42 @@
+#include "sim/bench/bench.hpp"
+
+#include <memory>
+
+#include "sim/commands/commands.hpp"
+#include "sim/commands/scene_arguments.hpp"
+
+namespace ridgeline::sim {
+namespace {
+
+struct BenchArguments : SceneArguments {
+  BenchOptions options;
+};
+
+int run_bench(BenchArguments& arguments) {
+  if (const std::string wrong = complete(arguments); !wrong.empty()) {
+    return fail(wrong_usage, wrong);
+  }
+  arguments.options.scene = arguments.scene;
+  const Outcome measured = bench(arguments.options);
+  return measured.ok() ? done : fail(bad_input, measured.message);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& program, int& status) {
+  auto arguments = std::make_shared<BenchArguments>();
+  BenchOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand("bench", "measure speed against error");
+  add_scene_options(*command, *arguments);
+  command->add_option("--log", options.log_file, "take the views from a recorded flight");
+  command->add_option("--json", options.json_file, "file for the rows");
+  command->add_option("--repeats", options.repeats, "counted frames a view and method")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--pixels", options.judged_pixels, "pixels the oracle judges a picture")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command->callback([arguments, &status] { status = run_bench(*arguments); });
+}
+
+}  // namespace ridgeline::sim
