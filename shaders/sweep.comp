@@ -70,6 +70,16 @@ void main() {
     }
   }
   if (steps >= step_limit) atomicAdd(counters[1], 1u);
-  float rest = g_end < ray_origin.w ? min(g, g_end) : sky;
-  for (; row <= last_row; ++row) store(row, plane, rest);
+  // Past the last node the wedge is empty up to the end of the sweep. Beyond it as well for rays that
+  // climb away from the sea level circle there and pass over the highest post of the window.
+  float far_drop = 0.5 * g_end * g_end * inverse_radius * (1.0 - 1.0e-4);
+  float far_high = over_eye(heights.x) + 1.0;
+  for (; row <= last_row; ++row) {
+    slope = slope_list[row];
+    bool climbs = slope + g_end * inverse_radius > 0.0;
+    float c = 1.0 + (far_high + earth.w) * inverse_radius;
+    bool over = far_high < c * (far_drop + slope * (slope < 0.0 ? g_end : g_end * (1.0 - 1.0e-4)));
+    bool clear = g_end >= ray_origin.w || (climbs && over);
+    store(row, plane, clear ? sky : min(g, g_end));
+  }
 }
