@@ -1,0 +1,105 @@
+// The swept picture is the ray cast one: the grid saves steps and changes no pixel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/gl/scene.hpp"
+
+namespace ridgeline::test {
+namespace {
+
+char class_of(float range_m) {
+  return std::isnan(range_m) ? 'u' : std::isinf(range_m) ? 's' : 't';
+}
+
+struct Difference {
+  int classes = 0;
+  double largest_ratio = 0;
+  int first_u = -1, first_v = -1;
+};
+
+Difference difference(const sim::Picture& a, const sim::Picture& b, int width_px) {
+  Difference d;
+  EXPECT_EQ(a.range_m.size(), b.range_m.size());
+  for (std::size_t i = 0; i < a.range_m.size() && i < b.range_m.size(); ++i) {
+    const float x = a.range_m[i], y = b.range_m[i];
+    double ratio = 0;
+    if (class_of(x) != class_of(y)) {
+      ++d.classes;
+      ratio = 1;
+    } else if (class_of(x) == 't') {
+      ratio = std::abs(static_cast<double>(x) - static_cast<double>(y)) / static_cast<double>(y);
+    }
+    if (ratio > d.largest_ratio) {
+      d.largest_ratio = ratio;
+      d.first_u = static_cast<int>(i) % width_px;
+      d.first_v = static_cast<int>(i) / width_px;
+    }
+  }
+  return d;
+}
+
+std::string words(const Pose& p) {
+  return std::to_string(p.eye.latitude_deg) + ' ' + std::to_string(p.eye.longitude_deg) + ' ' +
+         std::to_string(p.eye.height_m) + ' ' + std::to_string(p.attitude.roll_deg) + ' ' +
+         std::to_string(p.attitude.pitch_deg) + ' ' + std::to_string(p.attitude.heading_deg);
+}
+
+void expect_same_both_ways(Scene& scene, const Pose& pose) {
+  scene.settings().cast_every_pixel = false;
+  const sim::Picture swept = scene.draw(pose);
+  scene.settings().cast_every_pixel = true;
+  const sim::Picture cast = scene.draw(pose);
+  ASSERT_NE(swept.report.availability.mode, Mode::removed) << words(pose);
+  EXPECT_EQ(cast.report.planes, 0);
+  const Difference d = difference(swept, cast, scene.settings().image.width_px);
+  EXPECT_EQ(d.classes, 0) << words(pose) << " at " << d.first_u << ' ' << d.first_v;
+  EXPECT_LE(d.largest_ratio, 1e-5) << words(pose) << " at " << d.first_u << ' ' << d.first_v;
+}
+
+class Sweep : public testing::Test {
+ protected:
+  static Land& land() {
+    static Land* const made = [] {
+      auto* const l = new Land(rough_with_voids_m);
+      l->add_tile(46, 8);
+      return l;
+    }();
+    return *made;
+  }
+};
+
+TEST_F(Sweep, equals_the_ray_cast_on_random_poses) {
+  constexpr ImageGeometry image{200, 160, 60};
+  Scene scene(land(), image, 1.0, 18'000, {46.5, 8.5, 2000});
+  std::mt19937 random(20240917);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) * 0x1p-32);
+  };
+  int swept_frames = 0;
+  for (int k = 0; k < 60; ++k) {
+    Pose pose{{between(46.2, 46.8), between(8.25, 8.75), 0},
+              {between(-180, 180), between(-89, 60), between(0, 360)}};
+    if (k % 2 == 0) pose.attitude = {between(-30, 30), between(-15, 10), between(0, 360)};
+    const double over_m = std::pow(10.0, between(0.5, 3.3));
+    const double ground_m = land().ground_m(pose.eye.latitude_deg, pose.eye.longitude_deg);
+    pose.eye.height_m = std::isnan(ground_m) ? 2300 : ground_m + over_m;
+    expect_same_both_ways(scene, pose);
+    scene.settings().cast_every_pixel = false;
+    swept_frames += scene.draw(pose).report.planes > 0 ? 1 : 0;
+  }
+  EXPECT_GT(swept_frames, 30);  // the comparison is not of the ray cast with itself
+}
+
+TEST_F(Sweep, equals_the_ray_cast_when_the_picture_holds_the_nadir) {
+  // 2026-11-22: with the nadir in the picture pixels near its far corner started behind the ground.
+  Scene scene(land(), {200, 160, 60}, 1.0, 18'000, {46.5, 8.5, 2000});
+  const double ground_m = land().ground_m(46.42, 8.61);
+  for (const double pitch : {-89.0, -75.0, -60.0, -50.0, -45.0, -40.0}) {
+    expect_same_both_ways(scene, {{46.42, 8.61, ground_m + 900}, {20, pitch, 200}});
+  }
+}
+
+}  // namespace
+}  // namespace ridgeline::test
