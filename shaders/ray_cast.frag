@@ -3,7 +3,6 @@
 layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
-const int step_limit = 200000;   // ten times the steps of the longest ray
 const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
 
 // Ground distance up to which the wedge round this direction is empty at its slope and above.
@@ -52,7 +51,7 @@ float first_hit(Ray r, float start, int level) {
     float u = p.g * tolerance.z;
     vec2 at = track_posts(track, u);
     vec2 rate = track_rate(track, u) * p.g_rate;
-    vec2 whole = floor(at);
+    vec2 whole = cell_ahead(at, rate);
     ivec2 cell = ivec2(whole);
     // Up a level when the step has left the parent node, so that long clear ways take few steps.
     ivec2 up = (window.xy + cell) >> (level + 1);
