@@ -44,7 +44,7 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 eye;           // xy: eye in window posts, 0..1; z + w: eye height over the base, high and low
   vec4 earth;         // x: 1/M; y: 1/N; z: base height; w: eye height over the ellipsoid
   vec4 heights;       // x: highest, y: lowest height over the base; z: largest node; w: largest step
-  vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; y, w: unused
+  vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; yw: swell at the range, 03 21
   ivec4 window;       // xy: post south-west of the eye; zw: columns and rows of the window
   vec4 latitude[3];   // ground map in posts: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // 10 11 12 13 | 14 30 31 32 | 50 - - -

@@ -3,7 +3,6 @@
 layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
-const int step_limit = 200000;   // ten times the steps of the longest ray
 const float proven_sky = 1.5e30;  // no ray was cast: the grid proves the wedge empty
 const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
 
@@ -65,6 +64,9 @@ Course course_of(Ray r) {
   float length_scale = r.eye_radius * e;  // the range
   q.h = length_scale * vec4(u, 0.5 * aa * e, -0.5 * u * aa * e * e,
                             0.125 * (5.0 * uu - 1.0) * aa * e * e * e);
+  // The ellipsoid swells away from its circle, so the ray is that much lower over it.
+  vec2 z = r.azimuth;
+  q.h.z -= a * aa * z.y * (tolerance.y * z.y * z.y + tolerance.w * z.x * z.x);
   return q;
 }
 
@@ -86,7 +88,7 @@ float first_hit(Ray r, float start, int level) {
     if (height > ceiling && climb >= 0.0) return sky;
     vec2 at = eye.xy + s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
-    vec2 whole = floor(at);
+    vec2 whole = cell_ahead(at, rate);
     ivec2 cell = ivec2(whole);
     // Up a level when the step has left the parent node, so that long clear ways take few steps.
     ivec2 up = (window.xy + cell) >> (level + 1);

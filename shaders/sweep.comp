@@ -15,8 +15,6 @@ layout(std430, binding = planes_buffer) readonly buffer Planes { Plane plane_lis
 layout(std430, binding = slopes_buffer) readonly buffer Slopes { float slope_list[]; };
 layout(std430, binding = counters_buffer) buffer Counters { uint counters[]; };
 
-const int step_limit = 200000;
-
 void store(int row, int plane, float value) {
   imageStore(nodes_image, ivec2(plane, row), vec4(value));
 }
@@ -43,7 +41,7 @@ void main() {
     float u = g * tolerance.z;
     vec2 at = track_posts(track, u);
     vec2 rate = track_rate(track, u);
-    ivec2 cell = ivec2(floor(at));
+    ivec2 cell = ivec2(cell_ahead(at, rate));
     float leave = min(exit_distance(cell, level, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
     float g1 = g + leave;
     float theta2 = g * g * inverse_radius * inverse_radius;
@@ -51,7 +49,8 @@ void main() {
     float near = g * (1.0 - theta2 * (1.0 / 6.0));
     float k = node_highest(cell, level);
     float c = 1.0 + (k + earth.w) * inverse_radius;
-    float slack = 1.0e-6 * abs(k) + 1.0e-6 * g1 + 1.0e-5;
+    float slack = 1.0e-6 * abs(k) + 1.0e-6 * g1 + 1.0e-5 +
+                  (abs(tolerance.y) + abs(tolerance.w)) * u * u * u * 1.2;  // swell
     // k + slack over the row's ray: terrain of this node may reach it.
     float over = k + slack - c * (drop + slope * (slope < 0.0 ? g1 : near));
     if (over < 0.0) {

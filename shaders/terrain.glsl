@@ -98,6 +98,16 @@ float node_highest(ivec2 cell, int level) {
   return over_eye(texelFetch(highest_texture, node + pyramid_corner(window.zw, level), 0).r);
 }
 
+// The cell a point is in, or about to enter: on an edge (within rounding) the way decides. A point
+// that stands on an edge and hardly moves across it would else be stuck there.
+vec2 cell_ahead(vec2 at, vec2 rate) {
+  return floor(at + sign(rate) * (1.0e-6 + 2.4e-7 * abs(at)));
+}
+
+// Loops end themselves before llvmpipe does it for them (after 65535 turns, silently, and whoever
+// is still in the loop stores nothing); ten times the steps of the longest ray.
+const int step_limit = 30000;
+
 // Distance along the track (in the unit of 1/rate) until the point leaves the node.
 float exit_distance(ivec2 cell, int level, vec2 at, vec2 rate) {
   ivec2 absolute = ((window.xy + cell) >> level) << level;

@@ -16,6 +16,7 @@ constexpr double largest_map_error_rad = 1e-4;
 struct Sample {
   double e = 0, n = 0;                         ///< E and N over the range
   double latitude_deg = 0, longitude_deg = 0;  ///< offsets from the eye
+  double swell_m = 0;                          ///< of the ellipsoid over the circle
 };
 
 double wrapped_deg(double angle) {
@@ -43,13 +44,14 @@ Sample exact_sample(const LocalFrame& frame, double range_m, double alpha, doubl
   }
   return {g_m * std::sin(alpha) / range_m, g_m * std::cos(alpha) / range_m,
           place.latitude_deg - frame.eye.latitude_deg,
-          wrapped_deg(place.longitude_deg - frame.eye.longitude_deg)};
+          wrapped_deg(place.longitude_deg - frame.eye.longitude_deg), rho - radius};
 }
 
 constexpr std::array<std::array<int, 2>, 11> latitude_terms{
     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {2, 0}, {2, 1}, {2, 2}, {2, 3}, {4, 0}, {4, 1}}};
 constexpr std::array<std::array<int, 2>, 9> longitude_terms{
     {{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {3, 0}, {3, 1}, {3, 2}, {5, 0}}};
+constexpr std::array<std::array<int, 2>, 2> swell_terms{{{0, 3}, {2, 1}}};
 
 double power(double x, int n) {
   double p = 1;
@@ -110,13 +112,16 @@ double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double al
   double latitude = 0, longitude = 0;
   map.offsets_deg(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m,
                   latitude, longitude);
+  const double swell_m =
+      map.swell_at_m(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m);
   double worst = 0;
   for (const double height_m : {-500.0, 3'000.0, limits::max_terrain_height_m}) {
     const Vec3<Ecef> exact = ecef_from_geodetic(
         {frame.eye.latitude_deg + latitude, frame.eye.longitude_deg + longitude, height_m});
     const Vec3<Enu> exact_enu = frame.ecef_from_enu.inverse() * (exact - frame.eye_ecef);
-    const double x = (radius + height_m) * std::sin(theta);
-    const double y = (radius + height_m) * std::cos(theta) - radius - frame.eye.height_m;
+    const double rho = radius + swell_m + height_m;
+    const double x = rho * std::sin(theta);
+    const double y = rho * std::cos(theta) - radius - frame.eye.height_m;
     const glm::dvec3 model(x * std::sin(alpha), x * std::cos(alpha), y);
     worst = std::max(worst, glm::length(exact_enu.xyz - model) / glm::length(model));
   }
@@ -147,6 +152,7 @@ Result<GroundMap> ground_map(const LocalFrame& frame, double range_m) {
   map.inverse_prime_vertical_radius = 1.0 / frame.prime_vertical_radius_m;
   Fit<11> latitude_fit(latitude_terms);
   Fit<9> longitude_fit(longitude_terms);
+  Fit<2> swell_fit(swell_terms);
   constexpr int azimuths = 13, radii = 7;
   for (int i = 0; i < azimuths; ++i) {  // the eastern half: the map is even or odd in E
     for (int k = 1; k <= radii; ++k) {
@@ -155,10 +161,12 @@ Result<GroundMap> ground_map(const LocalFrame& frame, double range_m) {
       const double weight = range_m / g_m;  // equal angles, not equal metres
       latitude_fit.add(sample.e, sample.n, sample.latitude_deg, weight);
       longitude_fit.add(sample.e, sample.n, sample.longitude_deg, weight);
+      swell_fit.add(sample.e, sample.n, sample.swell_m, weight);
     }
   }
   map.latitude_deg = latitude_fit.solve();
   map.longitude_deg = longitude_fit.solve();
+  map.swell_m = swell_fit.solve();
   double worst = 0;
   for (int i = 0; i <= 25; ++i) {
     for (int k = 1; k <= 10; ++k) {

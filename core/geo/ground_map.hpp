@@ -16,8 +16,10 @@ namespace ridgeline {
 ///   longitude = longitude_eye + sum over i odd   b_ij (E/range)^i (N/range)^j      (i + j <= 5)
 /// and the point at height h above it has the plane coordinates
 ///   x = (R + h) sin(g/R),   y = (R + h) cos(g/R) - (R + height_eye).
-/// What these formulas leave out (the ellipsoid is not a circle, its normals leave the plane, the
-/// series ends) is measured against GeographicLib when the map is made: `error_rad`.
+/// The ellipsoid itself does not follow the circle: at (alpha, g) it lies
+///   swell = w_0 (N/range)^3 + w_1 (E/range)^2 (N/range)
+/// outside it, and heights count from there: R above stands for R + swell.
+/// What these formulas leave out (its normals leave the plane, the series end) is measured against GeographicLib when the map is made: `error_rad`.
 struct GroundMap {
   double range_m = 0;
   double inverse_meridian_radius = 0;        ///< 1/M
@@ -26,10 +28,15 @@ struct GroundMap {
   std::array<double, 11> latitude_deg{};
   /// deg; order (i,j): 10 11 12 13 14 30 31 32 50
   std::array<double, 9> longitude_deg{};
+  std::array<double, 2> swell_m{};  ///< w_0, w_1; order (i,j): 03 21
   /// Largest displacement of a ground point at any height of the domain, over its distance from
   /// the eye, rad: the angle by which this map can misplace anything in the picture.
   double error_rad = 0;
 
+  /// Height of the ellipsoid over its osculating circle at (E, N), both over range_m; m.
+  [[nodiscard]] double swell_at_m(double e, double n) const {
+    return n * (swell_m[0] * n * n + swell_m[1] * e * e);
+  }
   /// Latitude and longitude offsets of ground point (E, N), both over range_m.
   void offsets_deg(double e, double n, double& latitude, double& longitude) const;
 };

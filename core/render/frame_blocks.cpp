@@ -7,7 +7,7 @@ namespace ridgeline {
 namespace {
 
 // Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
-constexpr double float_angle_rad = 1.5e-6;
+constexpr double float_angle_rad = 3.0e-6;
 constexpr double float_height_ratio = 1.8e-7;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
@@ -76,7 +76,7 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
                f(limits::top_level), f(largest_step_m(map, window))};
   const double sweep_end_m =
       grid.used ? std::min(wedge_limit_m(frame, grid, window), 1.003 * map.range_m) : 0.0;
-  b.tolerance = {f(sweep_end_m), 0.0f, f(1.0 / map.range_m), 0.0f};
+  b.tolerance = {f(sweep_end_m), f(map.swell_m[0]), f(1.0 / map.range_m), f(map.swell_m[1])};
   b.window = {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), window.columns,
               window.rows};
   for (int k = 0; k < 11; ++k) {

@@ -80,9 +80,12 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
   const double start_ms = now_ms();
-  picture.report =
-      draw_frame(options_.settings, input, *terrain_, refused_count(), tables, *renderer_);
-  picture.counts = finish_frame(*renderer_, picture.report, tables);
+  {
+    const HeapSection after_boot;  // the frame path of the module; what follows is the desktop's
+    picture.report =
+        draw_frame(options_.settings, input, *terrain_, refused_count(), tables, *renderer_);
+    picture.counts = finish_frame(*renderer_, picture.report, tables);
+  }
   picture.cpu_ms = now_ms() - start_ms;
   if (!want_pixels) return picture;
   const auto pixels = text_.size();

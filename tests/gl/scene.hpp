@@ -1,0 +1,80 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/session/session.hpp"
+#include "sim/synthetic/tile_writer.hpp"
+#include "tests/oracle/verify.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace ridgeline::test {
+
+struct Pose {
+  GeodeticPosition eye;
+  Attitude attitude;
+};
+
+/// A folder of tiles that a test writes for itself, and the heights it wrote.
+class Land {
+ public:
+  /// `voids`: the posts that `height_m` gives as NaN stay void.
+  explicit Land(sim::HeightFunction height_m) : height_m_(std::move(height_m)) {}
+
+  /// Adds one tile of `posts` x `posts`; aborts the test program where it cannot be written.
+  void add_tile(int south_deg, int west_deg, int posts = 1201) const;
+  /// Adds one DTED level 1 tile.
+  void add_dted(int south_deg, int west_deg) const;
+
+  [[nodiscard]] const std::string& path() const { return folder_.path(); }
+  /// Height of the bilinear surface between stored posts `step_deg` apart. NaN beside a void.
+  [[nodiscard]] double ground_m(double latitude_deg, double longitude_deg, double latitude_step_deg,
+                                double longitude_step_deg) const;
+  [[nodiscard]] double ground_m(double latitude_deg, double longitude_deg) const {
+    return ground_m(latitude_deg, longitude_deg, 1.0 / 1200, 1.0 / 1200);
+  }
+
+ private:
+  TemporaryFolder folder_;
+  sim::HeightFunction height_m_;
+};
+
+/// Steep mountains with single tall posts; continuous over the antimeridian. No voids.
+double rough_m(double latitude_deg, double longitude_deg);
+/// The same with void islands and single void posts.
+double rough_with_voids_m(double latitude_deg, double longitude_deg);
+
+/// A session over a land on the surfaceless context, and the dumps it leaves.
+class Scene {
+ public:
+  Scene(const Land& land, const ImageGeometry& image, double error_px, double range_m,
+        const GeodeticPosition& first);
+
+  [[nodiscard]] FrameSettings& settings() { return session_.settings(); }
+  [[nodiscard]] sim::Session& session() { return session_; }
+  sim::Picture draw(const Pose& pose);
+  /// Draws and dumps one frame; the picture.
+  sim::Picture shoot(const Pose& pose);
+  /// The oracle's word on every frame shot so far.
+  [[nodiscard]] oracle::VerifySummary judged(int pixels_per_frame) const;
+  [[nodiscard]] const std::string& dump_path() const { return dumps_.path(); }
+
+ private:
+  TemporaryFolder dumps_;
+  std::string land_path_;
+  sim::Session session_;
+  int shots_ = 0;
+};
+
+/// The frame is drawn in full (not removed) and the oracle finds no violation in it.
+/// Fails the running test with the command that shows the same frame otherwise.
+void expect_sound(Scene& scene, const std::vector<Pose>& poses, int pixels_per_frame);
+
+/// Where a point on or over the Earth appears, by GeographicLib alone (pixels, centres at +1/2).
+struct ImagePlace {
+  double u_px = 0, v_px = 0, distance_m = 0;
+  bool in_front = false;
+};
+ImagePlace image_place(const Pose& pose, const ImageGeometry& image, const GeodeticPosition& point);
+
+}  // namespace ridgeline::test
