@@ -61,9 +61,9 @@ void add_import_command(CLI::App& program, int& status) {
   command->add_option("--geoid", arguments->geoid, "geoid that turns MSL into ellipsoidal heights")
       ->capture_default_str();
   command->add_option("--from", arguments->options.from_s, "first second of the track")
-      ->check(CLI::Range(0.0, longest_track_s));
+      ->check(within(0.0, longest_track_s));
   command->add_option("--to", arguments->options.to_s, "last second of the track")
-      ->check(CLI::Range(0.0, longest_track_s));
+      ->check(within(0.0, longest_track_s));
   command->callback([arguments, &status] { status = run_import(*arguments); });
 }
 

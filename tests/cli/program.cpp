@@ -18,6 +18,20 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+using Words = std::vector<std::string>;
+
+/// Arguments, then the defaults that `more` does not name, then `more`.
+Words joined(Words all, const std::vector<std::pair<std::string, std::string>>& defaults,
+             const Words& more) {
+  for (const auto& [option, value] : defaults) {
+    if (std::find(more.begin(), more.end(), option) == more.end()) {
+      all.insert(all.end(), {option, value});
+    }
+  }
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 }  // namespace
 
 int Ended::error_lines() const {
@@ -72,17 +86,13 @@ FlatScene::FlatScene() {
 }
 
 std::vector<std::string> FlatScene::pose(const std::vector<std::string>& more) const {
-  std::vector<std::string> all{"pose",      "-45.5", "-72.5",  "700",   "-3",      "-5",  "-90",
-                               "--terrain", tiles(), "--size", "64x48", "--range", "6000"};
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
+  return joined({"pose", "-45.5", "-72.5", "700", "-3", "-5", "-90", "--terrain", tiles()},
+                {{"--size", "64x48"}, {"--range", "6000"}}, more);
 }
 
 std::vector<std::string> FlatScene::replay(const std::vector<std::string>& more) const {
-  std::vector<std::string> all{"replay", log(),     "--terrain", tiles(),  "--size",
-                               "64x48",  "--range", "6000",      "--rate", "5"};
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
+  return joined({"replay", log(), "--terrain", tiles()},
+                {{"--size", "64x48"}, {"--range", "6000"}, {"--rate", "5"}}, more);
 }
 
 }  // namespace ridgeline::test

@@ -33,7 +33,7 @@ class FlatScene {
   [[nodiscard]] std::string tiles() const { return folder_.file("tiles"); }
   [[nodiscard]] std::string log() const { return folder_.file("flight.log"); }
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
-  /// Arguments of a small pose over the tile, after which options may follow.
+  /// Arguments of a small pose over the tile; `more` replaces options of the same name.
   [[nodiscard]] std::vector<std::string> pose(const std::vector<std::string>& more = {}) const;
   [[nodiscard]] std::vector<std::string> replay(const std::vector<std::string>& more = {}) const;
 
