@@ -9,6 +9,8 @@
 namespace ridgeline::sim {
 namespace {
 
+constexpr double longest_track_s = 1e6;
+
 struct ImportArguments {
   std::string track_file, log_file, geoid = "none", altitude = "header";
   IgcImportOptions options;
@@ -58,8 +60,10 @@ void add_import_command(CLI::App& program, int& status) {
       ->capture_default_str();
   command->add_option("--geoid", arguments->geoid, "geoid that turns MSL into ellipsoidal heights")
       ->capture_default_str();
-  command->add_option("--from", arguments->options.from_s, "first second of the track");
-  command->add_option("--to", arguments->options.to_s, "last second of the track");
+  command->add_option("--from", arguments->options.from_s, "first second of the track")
+      ->check(within(0.0, longest_track_s));
+  command->add_option("--to", arguments->options.to_s, "last second of the track")
+      ->check(within(0.0, longest_track_s));
   command->callback([arguments, &status] { status = run_import(*arguments); });
 }
 

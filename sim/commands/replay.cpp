@@ -9,6 +9,8 @@
 namespace ridgeline::sim {
 namespace {
 
+constexpr double longest_log_s = 1e6;
+
 struct ReplayArguments : SceneArguments {
   ReplayOptions replay;
   std::string profile = "field";
@@ -40,10 +42,12 @@ void add_replay_command(CLI::App& program, int& status) {
   command->add_option("LOG", options.log_file, "candump log of CANaerospace frames")->required();
   add_scene_options(*command, *arguments);
   command->add_option("--rate", options.rate_hz, "frames per second of log time")
-      ->check(CLI::Range(0.01, 200.0))
+      ->check(within(0.01, 200.0))
       ->capture_default_str();
-  command->add_option("--from", options.from_s, "first second, from the start of the log");
-  command->add_option("--to", options.to_s, "last second, from the start of the log");
+  command->add_option("--from", options.from_s, "first second, from the start of the log")
+      ->check(within(0.0, longest_log_s));
+  command->add_option("--to", options.to_s, "last second, from the start of the log")
+      ->check(within(0.0, longest_log_s));
   command->add_option("--frames", options.frames_folder, "folder for PNG pictures");
   command->add_option("--dump", options.dump_folder, "folder for dumps (contract, section 3)");
   command->add_option("--report", options.report_file, "JSON report");

@@ -43,6 +43,16 @@ std::string complete(SceneArguments& arguments) {
   return {};
 }
 
+CLI::Validator within(double low, double high) {
+  const auto check = [low, high](std::string& text) -> std::string {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+    return text + " is not a number from " + CLI::detail::to_string(low) + " to " +
+           CLI::detail::to_string(high);
+  };
+  return {check, "NUMBER"};
+}
+
 int fail(int status, const std::string& message) {
   std::fprintf(stderr, "ridgeline: %s\n", message.c_str());
   return status;

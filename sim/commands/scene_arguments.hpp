@@ -19,6 +19,9 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 /// Checks and completes the options; an error message, or empty.
 std::string complete(SceneArguments& arguments);
 
+/// Takes numbers from `low` to `high`, and unlike CLI::Range nothing that is not a number.
+CLI::Validator within(double low, double high);
+
 /// Prints "ridgeline: MESSAGE" as one line on standard error and returns `status`.
 int fail(int status, const std::string& message);
 

@@ -42,8 +42,8 @@ TEST_P(RoughLand, rolled_and_pitched_to_the_limits) {
 
 TEST_P(RoughLand, two_metres_over_the_ground) {
   Scene s(land(), small_image, GetParam(), range_m, {46.5, 8.5, 2000});
-  expect_sound(
-      s, {over(46.3123, 8.4567, 2, {0, 0, 77}), over(46.7077, 8.3011, 2, {-30, 5, 310})}, pixels);
+  expect_sound(s, {over(46.3123, 8.4567, 2, {0, 0, 77}), over(46.7077, 8.3011, 2, {-30, 5, 310})},
+               pixels);
 }
 
 TEST_P(RoughLand, twenty_kilometres_up) {

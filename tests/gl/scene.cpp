@@ -50,8 +50,8 @@ void Land::add_dted(int south_deg, int west_deg) const {
   std::snprintf(name, sizeof name, "%c%02d_%c%03d.dt1", south_deg < 0 ? 's' : 'n',
                 std::abs(south_deg), west_deg < 0 ? 'w' : 'e', std::abs(west_deg));
   const PostHeight post = [&](int row, int column) -> std::optional<int> {
-    const double h = height_m_(south_deg + row / (shape.rows - 1.0),
-                               west_deg + column / (shape.columns - 1.0));
+    const double h =
+        height_m_(south_deg + row / (shape.rows - 1.0), west_deg + column / (shape.columns - 1.0));
     if (std::isnan(h)) return std::nullopt;
     return sim::stored_height_m(h);
   };
