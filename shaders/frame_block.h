@@ -68,11 +68,11 @@ RL_BLOCK(GridBlock, 1) {
 // What the picture looks like.
 RL_BLOCK(StyleBlock, 2) {
   vec4 sun;          // xyz: direction to the sun, ENU
-  vec4 legend;       // x: 1 when terrain is drawn; y: 1 when the attitude is valid
+  vec4 legend;       // x: 1 when terrain is drawn; y: 1 when the attitude is valid; zw: 1/image size
   vec4 post_step;    // xy: posts per metre east and north; z, w: roughness and height of sea, m
-  vec4 line;         // x: rad per pixel; y: pixels per ray slope; z: half width, px; w: 1/range
+  vec4 line;         // x: as grid_step, contours; y: pixels per ray slope; z: width; w: 1/range
   vec4 ground_grid;  // xy: grid lines from the eye's post to the line south-west; zw: lines per post
-  vec4 grid_step;    // xy: grid lines per metre east and north
+  vec4 grid_step;    // xy: (metres from line to line / rad per pixel) squared; zw: 1/window size
   vec4 geoid[2];     // undulation by E, N over range: 1 E N EE | EN NN - -
 };
 

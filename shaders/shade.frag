@@ -18,7 +18,8 @@ vec3 sky_colour(float up) {
 }
 
 float ramp(float low, float high, float value) {
-  return clamp((value - low) / (high - low), 0.0, 1.0);
+  float slope = 1.0 / (high - low);  // of constants: no division is left
+  return clamp(value * slope - low * slope, 0.0, 1.0);
 }
 
 vec3 height_tint(float height_m) {
@@ -36,7 +37,7 @@ float geoid_m(vec2 at) {
 
 // Four posts whose south-west one is `post`; x north-west, y north-east, z south-east, w south-west.
 vec4 four_posts(ivec2 post) {
-  return textureGather(posts_texture, (vec2(post) + 1.0) / vec2(window.zw));
+  return textureGather(posts_texture, (vec2(post) + 1.0) * grid_step.zw);
 }
 
 // A void post gives way to the straight line through the two posts beside it.
@@ -72,16 +73,15 @@ Relief relief_at(ivec2 cell, vec2 f) {
   return r;
 }
 
-// How much of a pixel a line covers: `offset` in lines from the nearest, `lines` per pixel. Fades
-// before neighbouring lines would run together.
-vec3 line_cover(vec3 offset, vec3 lines, float half_width) {
-  vec3 near = abs(fract(offset + 0.5) - 0.5);
-  vec3 inside = clamp(half_width + 0.5 - near / max(lines, 1.0e-9), 0.0, 1.0);
-  return inside * clamp(1.35 - 9.0 * lines, 0.0, 1.0);
+// How much of a pixel a line covers: `offset` in lines from any line, `px2` the square of the pixels
+// between two lines. Fades before neighbouring lines would run together.
+vec3 line_cover(vec3 offset, vec3 px2) {
+  vec3 near = fract(offset + 0.5) - 0.5;
+  return clamp(line.z - near * near * px2, 0.0, 1.0) * clamp(px2 * 0.008 - 0.4, 0.0, 1.0);
 }
 
 // Ground under the hit at distance t: tint, light, contours, grid, haze.
-vec3 ground_colour(vec3 direction, Ray r, float t) {
+vec3 ground_colour(Ray r, float t) {
   RayPoint p = ray_point(r, t);
   float u = p.g * tolerance.z;
   vec2 place = u * r.azimuth;
@@ -90,43 +90,44 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   Relief relief = relief_at(ivec2(cell), at - cell);
   float height = p.height + earth.w - geoid_m(place);
   vec2 slope = relief.gradient * post_step.xy;
-  vec3 normal = vec3(-slope, 1.0) * inversesqrt(1.0 + dot(slope, slope));
+  vec3 normal = vec3(-slope, 1.0);  // not of unit length
+  float size2 = 1.0 + dot(slope, slope);
 
-  // Change of east, north and height per pixel across the line of sight, on the tangent plane.
+  // Change of east, north and height on the tangent plane when the ray moves by one pixel, squared.
   vec3 sight = vec3(r.azimuth * r.along, r.up);
-  vec3 a = sight / min(dot(normal, sight), -0.02);
-  vec3 per_pixel = t * line.x * sqrt(max(1.0 + a * (a - 2.0 * normal), 0.0));
-  vec3 lines = per_pixel * vec3(grid_step.xy, 1.0 / contour_m);
+  float facing = 1.0 / min(dot(normal, sight), -0.02);
+  vec3 a = sight * facing;
+  vec3 per_pixel2 = max(1.0 + a * (a * size2 - 2.0 * normal), 1.0e-4) * (t * t);
   vec3 offset = vec3(ground_grid.xy + at * ground_grid.zw, height * (1.0 / contour_m));
-  vec3 cover = line_cover(offset, lines, line.z);
+  vec3 cover = line_cover(offset, vec3(grid_step.xy, line.x) / per_pixel2);
 
   bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
-  float steep = ramp(0.00003, 0.0004, dot(slope, slope));  // flat ground has no contours
-  float light = ambient + (1.05 - ambient) * clamp(1.25 * dot(normal, sun.xyz), 0.0, 1.2);
+  cover.z *= sea ? 0.0 : ramp(1.00003, 1.0004, size2);  // flat ground has no contours
+  float light = ambient + 0.95 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
   vec3 ground = sea ? sea_blue : height_tint(height) * light;
-  ground = mix(ground, line_dark, 0.42 * cover.z * steep);
+  ground = mix(ground, line_dark, 0.42 * cover.z);
   ground = mix(ground, sea ? vec3(0.55, 0.72, 0.86) : line_dark, 0.30 * max(cover.x, cover.y));
   float far = t * line.w;
-  return mix(sky_colour(r.up), ground, exp(-far * (0.45 + 3.8 * far)));
+  float clear = 1.0 - far;  // squared, so that the end of the range is not cut out of the sky
+  return mix(sky_colour(r.up), ground, clear * clear * (1.0 + 1.2 * far));
 }
 
 // The picture without terrain: plain blue over brown, or a red cross when even that is not known.
 vec3 plain_colour(vec3 direction, vec2 pixel) {
-  vec2 size = vec2(ray_dx.w, ray_dy.w);
-  vec2 cross_px = abs(vec2(pixel.x * size.y - pixel.y * size.x,
-                           pixel.x * size.y + pixel.y * size.x - size.x * size.y)) / length(size);
-  float red = clamp(0.006 * size.x + 1.0 - min(cross_px.x, cross_px.y), 0.0, 1.0);
-  vec3 dark = mix(vec3(0.05), vec3(0.85, 0.05, 0.05), red);
+  vec2 place = pixel * legend.zw;
+  float off_cross = min(abs(place.x - place.y), abs(place.x + place.y - 1.0));
+  vec3 dark = off_cross < 0.008 ? vec3(0.85, 0.05, 0.05) : vec3(0.05);
   return legend.y < 0.5 ? dark : direction.z >= 0.0 ? vec3(0.20, 0.45, 0.78) : plain_ground;
 }
 
 // Ink of the text layer: a dark plate, words over it.
 vec3 with_text(vec3 under, ivec2 pixel) {
-  int ink = int(255.0 * texelFetch(text_texture, pixel, 0).r + 0.5);
-  under = ink == 0 ? under : mix(under, vec3(0.02), 0.62);
-  under = ink == text_ink ? vec3(1.0) : under;
-  under = ink == text_caution ? vec3(1.0, 0.72, 0.10) : under;
-  return ink == text_warning ? vec3(1.0, 0.25, 0.20) : under;
+  float ink = 255.0 * texelFetch(text_texture, pixel, 0).r;
+  under *= ink > 0.5 * float(text_plate) ? 0.36 : 1.0;
+  vec3 words = ink > 0.5 * float(text_ink + text_caution)       ? vec3(1.0)
+               : ink > 0.5 * float(text_caution + text_warning) ? vec3(1.0, 0.72, 0.10)
+                                                                : vec3(1.0, 0.25, 0.20);
+  return ink > 0.5 * float(text_warning + text_plate) ? words : under;
 }
 
 void main() {
@@ -138,15 +139,15 @@ void main() {
   } else {
     Ray r = make_ray(direction);
     float t = uintBitsToFloat(texelFetch(range_texture, pixel, 0).r);
-    vec3 ground = ground_colour(direction, r, min(abs(t), ray_origin.w));
+    vec3 ground = ground_colour(r, min(abs(t), ray_origin.w));
     // Unknown is hatched in the picture, not on the ground, so that it looks like no ground.
     float hatch = step(0.5, fract(float(pixel.x + pixel.y) * (1.0 / 12.0)));
     vec3 unknown = mix(vec3(0.86, 0.05, 0.86), vec3(0.26, 0.02, 0.28), hatch);
     seen = abs(t) >= sky ? sky_colour(r.up) : t < 0.0 ? unknown : ground;
   }
   // The line of zero pitch, with a dark rim so that it shows on snow and sky.
-  float from_horizon = abs(direction.z) * line.y + 1.0e4 * step(legend.y, 0.5);
-  seen = mix(seen, vec3(0.0), 0.35 * clamp(line.z + 1.8 - from_horizon, 0.0, 1.0));
-  seen = mix(seen, vec3(1.0), 0.90 * clamp(line.z + 0.4 - from_horizon, 0.0, 1.0));
+  float from_horizon = (abs(direction.z) + 1.0 - legend.y) * line.y;
+  seen *= 1.0 - 0.35 * clamp(2.4 - from_horizon, 0.0, 1.0);
+  seen = mix(seen, vec3(1.0), 0.90 * clamp(line.z - from_horizon, 0.0, 1.0));
   colour = vec4(with_text(seen, pixel), 1.0);
 }

@@ -18,6 +18,7 @@ constexpr double sea_height_m = 0.6;  ///< raster seas are 0 m; float rounding s
 // With a geoid, posts of the sea follow it: 6e-4 m/m at most, over one cell of 100 m; and the
 // parabola through nine undulations misses the geoid by metres.
 constexpr double geoid_sea_roughness_m = 0.08, geoid_sea_height_m = 3.0;
+constexpr double contour_m = 100.0;
 constexpr double grid_spacing_m = 1'200.0;  ///< no ground grid is finer than half of this
 
 /// Draws text into a layer of bytes; clips at the borders.
@@ -98,9 +99,12 @@ void put_ground_grid(const FrameReport& report, const WindowGrid& window, double
                        f(remainder_of(post_north_deg, line_north_deg) / line_north_deg),
                        f(window.longitude_step_deg / line_east_deg),
                        f(window.latitude_step_deg / line_north_deg)};
-  style.grid_step = {
-      f(1.0 / (minutes * rad_per_minute * report.local.prime_vertical_radius_m * cos_latitude)),
-      f(1.0 / (rad_per_minute * report.local.meridian_radius_m)), 0.0f, 0.0f};
+  const double fx = report.camera.fx;
+  const double east_m =
+      minutes * rad_per_minute * report.local.prime_vertical_radius_m * cos_latitude;
+  const double north_m = rad_per_minute * report.local.meridian_radius_m;
+  style.grid_step = {f(east_m * east_m * fx * fx), f(north_m * north_m * fx * fx),
+                     f(1.0 / window.columns), f(1.0 / window.rows)};
 }
 
 /// The parabola through the undulations at the eye and at eight places round it.
@@ -159,11 +163,14 @@ shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& wind
   shader::StyleBlock style{};
   const Camera& camera = report.camera;
   const bool drawn = report.availability.mode != Mode::removed;
-  style.legend = {drawn ? 1.0f : 0.0f, attitude_valid ? 1.0f : 0.0f, 0.0f, 0.0f};
+  style.legend = {drawn ? 1.0f : 0.0f, attitude_valid ? 1.0f : 0.0f, f(1.0 / camera.width_px),
+                  f(1.0 / camera.height_px)};
   const glm::dmat3& axes = camera.enu_from_camera.columns;
   const double slope_per_px = std::hypot(axes[0].z / camera.fx, axes[1].z / camera.fy);
-  style.line = {f(1.0 / camera.fx), f(1.0 / std::max(slope_per_px, 1e-9)),
-                camera.width_px >= 1600 ? 0.9f : 0.6f, 0.0f};
+  const double px_per_slope = 1.0 / std::max(slope_per_px, 1e-9);
+  const double contour_px = contour_m * camera.fx;
+  style.line = {f(contour_px * contour_px), f(px_per_slope), camera.width_px >= 1600 ? 1.6f : 1.2f,
+                0.0f};
   if (!drawn) return style;
   const double a = sun_azimuth_deg * deg, e = sun_elevation_deg * deg;
   style.sun = {f(std::sin(a) * std::cos(e)), f(std::cos(a) * std::cos(e)), f(std::sin(e)), 0.0f};
