@@ -10,7 +10,7 @@ const vec3 plain_ground = vec3(0.36, 0.25, 0.14);  // the lower half of a frame 
 const vec3 sea_blue = vec3(0.09, 0.27, 0.47);
 const vec3 line_dark = vec3(0.07, 0.06, 0.05);
 const float contour_m = 100.0;
-const float ambient = 0.30;
+const float ambient = 0.28;
 
 vec3 sky_colour(float up) {
   float s = clamp(up, 0.0, 1.0);
@@ -81,7 +81,7 @@ vec3 line_cover(vec3 offset, vec3 px2) {
 }
 
 // Ground under the hit at distance t: tint, light, contours, grid, haze.
-vec3 ground_colour(Ray r, float t) {
+vec3 ground_colour(vec3 direction, Ray r, float t) {
   RayPoint p = ray_point(r, t);
   float u = p.g * tolerance.z;
   vec2 place = u * r.azimuth;
@@ -99,11 +99,13 @@ vec3 ground_colour(Ray r, float t) {
   vec3 a = sight * facing;
   vec3 per_pixel2 = max(1.0 + a * (a * size2 - 2.0 * normal), 1.0e-4) * (t * t);
   vec3 offset = vec3(ground_grid.xy + at * ground_grid.zw, height * (1.0 / contour_m));
-  vec3 cover = line_cover(offset, vec3(grid_step.xy, line.x) / per_pixel2);
+  // A pixel off the axis is a smaller angle: `direction` is longer than 1 by that much.
+  vec3 px2 = vec3(grid_step.xy, line.x) * dot(direction, direction) / per_pixel2;
+  vec3 cover = line_cover(offset, px2);
 
   bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
   cover.z *= sea ? 0.0 : ramp(1.00003, 1.0004, size2);  // flat ground has no contours
-  float light = ambient + 0.95 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
+  float light = ambient + 0.80 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
   vec3 ground = sea ? sea_blue : height_tint(height) * light;
   ground = mix(ground, line_dark, 0.42 * cover.z);
   ground = mix(ground, sea ? vec3(0.55, 0.72, 0.86) : line_dark, 0.30 * max(cover.x, cover.y));
@@ -133,18 +135,15 @@ vec3 with_text(vec3 under, ivec2 pixel) {
 void main() {
   ivec2 pixel = ivec2(int(gl_FragCoord.x), int(ray_dy.w) - 1 - int(gl_FragCoord.y));
   vec3 direction = pixel_ray(vec2(pixel));
-  vec3 seen;
-  if (legend.x < 0.5) {
-    seen = plain_colour(direction, vec2(pixel) + 0.5);
-  } else {
-    Ray r = make_ray(direction);
-    float t = uintBitsToFloat(texelFetch(range_texture, pixel, 0).r);
-    vec3 ground = ground_colour(r, min(abs(t), ray_origin.w));
-    // Unknown is hatched in the picture, not on the ground, so that it looks like no ground.
-    float hatch = step(0.5, fract(float(pixel.x + pixel.y) * (1.0 / 12.0)));
-    vec3 unknown = mix(vec3(0.86, 0.05, 0.86), vec3(0.26, 0.02, 0.28), hatch);
-    seen = abs(t) >= sky ? sky_colour(r.up) : t < 0.0 ? unknown : ground;
-  }
+  Ray r = make_ray(direction);
+  float t = uintBitsToFloat(texelFetch(range_texture, pixel, 0).r);
+  vec3 seen = ground_colour(direction, r, min(abs(t), ray_origin.w));
+  // Unknown is hatched in the picture, not on the ground, so that it looks like no ground.
+  float hatch = fract(float(pixel.x + pixel.y) * (1.0 / 12.0));
+  vec3 unknown = hatch < 0.5 ? vec3(0.86, 0.05, 0.86) : vec3(0.26, 0.02, 0.28);
+  seen = t < 0.0 ? unknown : seen;
+  seen = abs(t) >= sky ? sky_colour(r.up) : seen;
+  seen = legend.x < 0.5 ? plain_colour(direction, vec2(pixel) + 0.5) : seen;
   // The line of zero pitch, with a dark rim so that it shows on snow and sky.
   float from_horizon = (abs(direction.z) + 1.0 - legend.y) * line.y;
   seen *= 1.0 - 0.35 * clamp(2.4 - from_horizon, 0.0, 1.0);
