@@ -10,7 +10,7 @@ const vec3 plain_ground = vec3(0.36, 0.25, 0.14);  // the lower half of a frame 
 const vec3 sea_blue = vec3(0.09, 0.27, 0.47);
 const vec3 line_dark = vec3(0.07, 0.06, 0.05);
 const float contour_m = 100.0;
-const float ambient = 0.28;
+const float ambient = 0.36;
 
 vec3 sky_colour(float up) {
   float s = clamp(up, 0.0, 1.0);
@@ -105,7 +105,7 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
 
   bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
   cover.z *= sea ? 0.0 : ramp(1.00003, 1.0004, size2);  // flat ground has no contours
-  float light = ambient + 0.80 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
+  float light = ambient + 0.72 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
   vec3 ground = sea ? sea_blue : height_tint(height) * light;
   ground = mix(ground, line_dark, 0.42 * cover.z);
   ground = mix(ground, sea ? vec3(0.55, 0.72, 0.86) : line_dark, 0.30 * max(cover.x, cover.y));
