@@ -26,6 +26,12 @@ RL_CONST(range_unit, 4);
 RL_CONST(text_unit, 5);
 RL_CONST(geoid_unit, 6);
 
+// Bytes of the text layer; 0 is no text.
+RL_CONST(text_plate, 60);
+RL_CONST(text_warning, 120);
+RL_CONST(text_caution, 180);
+RL_CONST(text_ink, 255);
+
 // Image units.
 RL_CONST(target_image, 0);
 RL_CONST(second_image, 1);
@@ -61,9 +67,13 @@ RL_BLOCK(GridBlock, 1) {
 
 // What the picture looks like.
 RL_BLOCK(StyleBlock, 2) {
-  vec4 sun;        // xyz: direction to the sun, ENU; w: haze per m
-  vec4 legend;     // x: 1 when terrain is drawn; y: 1 when the attitude is valid; z: slope of the sea horizon
-  vec4 post_step;  // xy: metres per post east and north
+  vec4 sun;          // xyz: direction to the sun, ENU
+  vec4 legend;       // x: 1 when terrain is drawn; y: 1 when the attitude is valid; zw: 1/image size
+  vec4 post_step;    // xy: posts per metre east and north; z, w: roughness and height of sea, m
+  vec4 line;         // x: as grid_step, contours; y: pixels per ray slope; z: width; w: 1/range
+  vec4 ground_grid;  // xy: grid lines from the eye's post to the line south-west; zw: lines per post
+  vec4 grid_step;    // xy: (metres from line to line / rad per pixel) squared; zw: 1/window size
+  vec4 geoid[2];     // undulation by E, N over range: 1 E N EE | EN NN - -
 };
 
 #ifdef __cplusplus

@@ -1,16 +1,135 @@
 // Shade pass: what the pilot sees, from the range of each pixel. No terrain value is made here.
+// Without branches where it can be: a software GPU runs both sides of each anyway.
 layout(binding = range_unit) uniform highp usampler2D range_texture;
+layout(binding = text_unit) uniform highp sampler2D text_texture;
 layout(location = 0) out vec4 colour;
 
+const vec3 horizon_blue = vec3(0.72, 0.82, 0.91);
+const vec3 zenith_blue = vec3(0.10, 0.30, 0.64);
+const vec3 plain_ground = vec3(0.36, 0.25, 0.14);  // the lower half of a frame without terrain
+const vec3 sea_blue = vec3(0.09, 0.27, 0.47);
+const vec3 line_dark = vec3(0.07, 0.06, 0.05);
+const float contour_m = 100.0;
+const float ambient = 0.36;
+
 vec3 sky_colour(float up) {
-  return mix(vec3(0.66, 0.80, 0.92), vec3(0.16, 0.38, 0.72), clamp(up * 2.2, 0.0, 1.0));
+  float s = clamp(up, 0.0, 1.0);
+  return mix(zenith_blue, horizon_blue, 1.0 / (1.0 + 7.0 * s));
 }
 
-vec3 height_tint(float h) {
-  vec3 c = mix(vec3(0.26, 0.42, 0.20), vec3(0.47, 0.52, 0.28), smoothstep(0.0, 700.0, h));
-  c = mix(c, vec3(0.56, 0.46, 0.32), smoothstep(600.0, 1600.0, h));
-  c = mix(c, vec3(0.55, 0.50, 0.46), smoothstep(1500.0, 2400.0, h));
-  return mix(c, vec3(0.93, 0.94, 0.96), smoothstep(2300.0, 3200.0, h));
+float ramp(float low, float high, float value) {
+  float slope = 1.0 / (high - low);  // of constants: no division is left
+  return clamp(value * slope - low * slope, 0.0, 1.0);
+}
+
+vec3 height_tint(float height_m) {
+  vec3 c = mix(vec3(0.25, 0.43, 0.20), vec3(0.53, 0.56, 0.29), ramp(0.0, 650.0, height_m));
+  c = mix(c, vec3(0.60, 0.46, 0.29), ramp(600.0, 1500.0, height_m));
+  c = mix(c, vec3(0.58, 0.53, 0.49), ramp(1500.0, 2400.0, height_m));
+  return mix(c, vec3(0.97, 0.98, 1.00), ramp(2300.0, 3200.0, height_m));
+}
+
+// Mean sea level over the ellipsoid at the ground point E, N (over the display range).
+float geoid_m(vec2 at) {
+  return geoid[0].x + at.x * (geoid[0].y + geoid[0].w * at.x + geoid[1].x * at.y) +
+         at.y * (geoid[0].z + geoid[1].y * at.y);
+}
+
+// Four posts whose south-west one is `post`; x north-west, y north-east, z south-east, w south-west.
+vec4 four_posts(ivec2 post) {
+  return textureGather(posts_texture, (vec2(post) + 1.0) * grid_step.zw);
+}
+
+// A void post gives way to the straight line through the two posts beside it.
+vec2 or_straight(vec2 outer, vec2 near, vec2 far) {
+  return mix(outer, 2.0 * near - far, lessThan(outer, vec2(void_threshold)));
+}
+
+struct Relief {
+  vec2 gradient;    // m per post, continuous over cell borders: near facets do not look like tiles
+  float roughness;  // m between the highest and the lowest post of the cell
+};
+
+// Central differences at the four posts of the cell, bilinear in between.
+Relief relief_at(ivec2 cell, vec2 f) {
+  ivec2 p = clamp(window.xy + cell, ivec2(1), window.zw - 3);
+  vec4 sw = four_posts(p - 1);
+  vec4 se = four_posts(p + ivec2(1, -1));
+  vec4 nw = four_posts(p + ivec2(-1, 1));
+  vec4 ne = four_posts(p + 1);
+  vec2 south = vec2(sw.y, se.x), north = vec2(nw.z, ne.w);    // the cell, west to east
+  vec2 west = vec2(sw.y, nw.z), east = vec2(se.x, ne.w);      // the cell, south to north
+  vec2 southern = or_straight(vec2(sw.z, se.w), south, north);
+  vec2 northern = or_straight(vec2(nw.y, ne.x), north, south);
+  vec2 western = or_straight(vec2(sw.x, nw.w), west, east);
+  vec2 eastern = or_straight(vec2(se.y, ne.z), east, west);
+  vec2 x = mix(east - western, eastern - west, f.x);
+  vec2 y = mix(north - southern, northern - south, f.y);
+  Relief r;
+  r.gradient = 0.5 * vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x));
+  vec2 low = min(south, north), high = max(south, north);
+  r.roughness = max(high.x, high.y) - min(low.x, low.y);
+  if (min(low.x, low.y) < void_threshold) r.gradient = vec2(0.0);  // rounding next to a void
+  return r;
+}
+
+// How much of a pixel a line covers: `offset` in lines from any line, `px2` the square of the pixels
+// between two lines. Fades before neighbouring lines would run together.
+vec3 line_cover(vec3 offset, vec3 px2) {
+  vec3 near = fract(offset + 0.5) - 0.5;
+  return clamp(line.z - near * near * px2, 0.0, 1.0) * clamp(px2 * 0.008 - 0.4, 0.0, 1.0);
+}
+
+// Ground under the hit at distance t: tint, light, contours, grid, haze.
+vec3 ground_colour(vec3 direction, Ray r, float t) {
+  RayPoint p = ray_point(r, t);
+  float u = p.g * tolerance.z;
+  vec2 place = u * r.azimuth;
+  vec2 at = ground_posts(place.x, place.y);
+  vec2 cell = floor(at);
+  Relief relief = relief_at(ivec2(cell), at - cell);
+  float height = p.height + earth.w - geoid_m(place);
+  vec2 slope = relief.gradient * post_step.xy;
+  vec3 normal = vec3(-slope, 1.0);  // not of unit length
+  float size2 = 1.0 + dot(slope, slope);
+
+  // Change of east, north and height on the tangent plane when the ray moves by one pixel, squared.
+  vec3 sight = vec3(r.azimuth * r.along, r.up);
+  float facing = 1.0 / min(dot(normal, sight), -0.02);
+  vec3 a = sight * facing;
+  vec3 per_pixel2 = max(1.0 + a * (a * size2 - 2.0 * normal), 1.0e-4) * (t * t);
+  vec3 offset = vec3(ground_grid.xy + at * ground_grid.zw, height * (1.0 / contour_m));
+  // A pixel off the axis is a smaller angle: `direction` is longer than 1 by that much.
+  vec3 px2 = vec3(grid_step.xy, line.x) * dot(direction, direction) / per_pixel2;
+  vec3 cover = line_cover(offset, px2);
+
+  bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
+  cover.z *= sea ? 0.0 : ramp(1.00003, 1.0004, size2);  // flat ground has no contours
+  float light = ambient + 0.72 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
+  vec3 ground = sea ? sea_blue : height_tint(height) * light;
+  ground = mix(ground, line_dark, 0.42 * cover.z);
+  ground = mix(ground, sea ? vec3(0.55, 0.72, 0.86) : line_dark, 0.30 * max(cover.x, cover.y));
+  float far = t * line.w;
+  float clear = 1.0 - far;  // squared, so that the end of the range is not cut out of the sky
+  return mix(sky_colour(r.up), ground, clear * clear * (1.0 + 1.2 * far));
+}
+
+// The picture without terrain: plain blue over brown, or a red cross when even that is not known.
+vec3 plain_colour(vec3 direction, vec2 pixel) {
+  vec2 place = pixel * legend.zw;
+  float off_cross = min(abs(place.x - place.y), abs(place.x + place.y - 1.0));
+  vec3 dark = off_cross < 0.008 ? vec3(0.85, 0.05, 0.05) : vec3(0.05);
+  return legend.y < 0.5 ? dark : direction.z >= 0.0 ? vec3(0.20, 0.45, 0.78) : plain_ground;
+}
+
+// Ink of the text layer: a dark plate, words over it.
+vec3 with_text(vec3 under, ivec2 pixel) {
+  float ink = 255.0 * texelFetch(text_texture, pixel, 0).r;
+  under *= ink > 0.5 * float(text_plate) ? 0.36 : 1.0;
+  vec3 words = ink > 0.5 * float(text_ink + text_caution)       ? vec3(1.0)
+               : ink > 0.5 * float(text_caution + text_warning) ? vec3(1.0, 0.72, 0.10)
+                                                                : vec3(1.0, 0.25, 0.20);
+  return ink > 0.5 * float(text_warning + text_plate) ? words : under;
 }
 
 void main() {
@@ -18,29 +137,16 @@ void main() {
   vec3 direction = pixel_ray(vec2(pixel));
   Ray r = make_ray(direction);
   float t = uintBitsToFloat(texelFetch(range_texture, pixel, 0).r);
-  if (abs(t) >= sky) {
-    colour = vec4(sky_colour(r.up), 1.0);
-    return;
-  }
-  if (t < 0.0) {  // unknown: magenta, hatched in the picture so that it looks like no ground
-    float stripe = step(0.5, fract(float(pixel.x + pixel.y) / 10.0));
-    colour = vec4(mix(vec3(0.78, 0.0, 0.78), vec3(0.30, 0.0, 0.32), stripe), 1.0);
-    return;
-  }
-  RayPoint p = ray_point(r, t);
-  float u = p.g * tolerance.z;
-  vec2 at = ground_posts(u * r.azimuth.x, u * r.azimuth.y);
-  vec2 cell = floor(at);
-  Cell q = cell_at(ivec2(cell));
-  vec2 f = at - cell;
-  vec2 gradient = vec2(q.dx + q.dxy * f.y, q.dy + q.dxy * f.x) / post_step.xy;
-  vec3 normal = normalize(vec3(-gradient, 1.0));
-  float height = p.height + eye.z + eye.w + earth.z;
-  float light = clamp(dot(normal, sun.xyz), 0.0, 1.0);
-  vec3 ground = height_tint(height);
-  bool sea = abs(height) < 0.6 && q.dx == 0.0 && q.dy == 0.0 && q.dxy == 0.0;
-  if (sea) ground = vec3(0.10, 0.27, 0.45);
-  ground *= 0.35 + 0.75 * light;
-  float haze = 1.0 - exp(-t * sun.w);
-  colour = vec4(mix(ground, vec3(0.70, 0.79, 0.86), haze), 1.0);
+  vec3 seen = ground_colour(direction, r, min(abs(t), ray_origin.w));
+  // Unknown is hatched in the picture, not on the ground, so that it looks like no ground.
+  float hatch = fract(float(pixel.x + pixel.y) * (1.0 / 12.0));
+  vec3 unknown = hatch < 0.5 ? vec3(0.86, 0.05, 0.86) : vec3(0.26, 0.02, 0.28);
+  seen = t < 0.0 ? unknown : seen;
+  seen = abs(t) >= sky ? sky_colour(r.up) : seen;
+  seen = legend.x < 0.5 ? plain_colour(direction, vec2(pixel) + 0.5) : seen;
+  // The line of zero pitch, with a dark rim so that it shows on snow and sky.
+  float from_horizon = (abs(direction.z) + 1.0 - legend.y) * line.y;
+  seen *= 1.0 - 0.35 * clamp(2.4 - from_horizon, 0.0, 1.0);
+  seen = mix(seen, vec3(1.0), 0.90 * clamp(line.z - from_horizon, 0.0, 1.0));
+  colour = vec4(with_text(seen, pixel), 1.0);
 }

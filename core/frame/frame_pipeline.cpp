@@ -47,16 +47,20 @@ FrameReport removed(FrameReport report, Reason reason) {
 
 FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
                          TerrainKeeper& terrain, int refused_tiles, const FrameTables& tables,
-                         Renderer& renderer, FrameBlocks& blocks) {
+                         Renderer& renderer, FrameBlocks& blocks, bool& attitude_valid) {
   FrameReport report;
   report.time_ns = input.time_ns;
   report.availability = input.availability;
 
   // Camera first: a frame without terrain still shows the attitude.
   const auto camera_made = camera(input.attitude, settings.image);
-  if (!camera_made) return removed(report, Reason::attitude_invalid);
-  report.camera = camera_made.value();
+  // An attitude that is no attitude still needs a picture, which says so: a level camera's size.
+  const auto any_camera = camera_made ? camera_made : camera({}, settings.image);
+  RL_ASSERT(any_camera);  // the image geometry was checked at boot
+  report.camera = any_camera.value();
   blocks = camera_blocks(report.camera);
+  attitude_valid = attitude_valid && camera_made;
+  if (!camera_made) return removed(report, Reason::attitude_invalid);
   if (report.availability.mode == Mode::removed) return report;
 
   // Local frame.
@@ -117,11 +121,12 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
                        TerrainKeeper& terrain, int refused_tiles, const FrameTables& tables,
                        Renderer& renderer) {
   FrameBlocks blocks{};
-  FrameReport report =
-      draw_terrain(settings, input, terrain, refused_tiles, tables, renderer, blocks);
+  bool attitude_valid = input.attitude_valid;
+  FrameReport report = draw_terrain(settings, input, terrain, refused_tiles, tables, renderer,
+                                    blocks, attitude_valid);
   if (report.availability.mode == Mode::removed) report.bound_px = 0;
   renderer.upload_text(text_layer(report, tables.text));
-  renderer.shade(blocks, style_block(report, terrain.grid(), input.attitude_valid));
+  renderer.shade(blocks, style_block(report, terrain.grid(), terrain.geoid(), attitude_valid));
   return report;
 }
 
@@ -136,7 +141,8 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
     add_reason(report.availability, Reason::no_bound);
     report.bound_px = 0;
     renderer.upload_text(text_layer(report, tables.text));
-    renderer.shade(camera_blocks(report.camera), style_block(report, WindowGrid{}, true));
+    renderer.shade(camera_blocks(report.camera),
+                   style_block(report, WindowGrid{}, GeoidLookup{}, true));
   }
   return counts;
 }

@@ -13,7 +13,13 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
 constexpr double sun_azimuth_deg = 315.0, sun_elevation_deg = 42.0;  ///< the cartographers' light
-constexpr double haze_range_share = 0.55;  ///< haze reaches 63 % at this share of the range
+constexpr double rad_per_minute = deg / 60.0;
+constexpr double sea_height_m = 0.6;  ///< raster seas are 0 m; float rounding stays far below this
+// With a geoid, posts of the sea follow it: 6e-4 m/m at most, over one cell of 100 m; and the
+// parabola through nine undulations misses the geoid by metres.
+constexpr double geoid_sea_roughness_m = 0.08, geoid_sea_height_m = 3.0;
+constexpr double contour_m = 100.0;
+constexpr double grid_spacing_m = 1'200.0;  ///< no ground grid is finer than half of this
 
 /// Draws text into a layer of bytes; clips at the borders.
 class TextLayer {
@@ -23,33 +29,37 @@ class TextLayer {
     std::fill(pixels_.begin(), pixels_.end(), std::uint8_t{0});
   }
 
-  void line(std::string_view text, int x, int y, int scale) {
+  void line(std::string_view text, int x, int y, int scale, int ink) {
+    const int margin = 2 * scale;
+    box(x - margin, y - margin, text_width(text, scale) + 2 * margin,
+        glyph_rows * scale + 2 * margin, shader::text_plate);
     for (const char letter : text) {
-      glyph(glyph_bits(letter), x, y, scale);
+      glyph(glyph_bits(letter), x, y, scale, ink);
       x += (glyph_columns + 1) * scale;
     }
   }
-  void centred(std::string_view text, int y, int scale) {
-    line(text, (width_ - text_width(text, scale)) / 2, y, scale);
+  void centred(std::string_view text, int y, int scale, int ink) {
+    line(text, (width_ - text_width(text, scale)) / 2, y, scale, ink);
   }
   static int text_width(std::string_view text, int scale) {
     return static_cast<int>(text.size()) * (glyph_columns + 1) * scale - scale;
   }
 
  private:
-  void glyph(std::uint64_t bits, int x, int y, int scale) {
+  void glyph(std::uint64_t bits, int x, int y, int scale, int ink) {
     for (int row = 0; row < glyph_rows; ++row) {
       for (int column = 0; column < glyph_columns; ++column) {
         const int bit = glyph_rows * glyph_columns - 1 - row * glyph_columns - column;
         if ((bits >> bit & 1U) == 0) continue;
-        square(x + column * scale, y + row * scale, scale);
+        box(x + column * scale, y + row * scale, scale, scale, ink);
       }
     }
   }
-  void square(int x, int y, int size) {
-    for (int py = std::max(y, 0); py < std::min(y + size, height_); ++py) {
-      for (int px = std::max(x, 0); px < std::min(x + size, width_); ++px) {
-        pixels_[static_cast<std::size_t>(py) * width_ + px] = 255;
+  void box(int x, int y, int width, int height, int ink) {
+    const int left = std::max(x, 0), right = std::min(x + width, width_);
+    for (int py = std::max(y, 0); py < std::min(y + height, height_); ++py) {
+      for (int px = left; px < right; ++px) {
+        pixels_[static_cast<std::size_t>(py) * width_ + px] = static_cast<std::uint8_t>(ink);
       }
     }
   }
@@ -60,6 +70,76 @@ class TextLayer {
 
 float f(double value) {
   return static_cast<float>(value);
+}
+
+double remainder_of(double value, double divisor) {
+  return value - divisor * std::floor(value / divisor);
+}
+
+/// Whole minutes of longitude between grid lines: more of them towards the poles.
+double longitude_minutes(double cos_latitude) {
+  const double minute_m = 1'855.0 * std::max(cos_latitude, 1e-3);
+  for (const double minutes : {1.0, 2.0, 5.0, 10.0, 20.0, 30.0}) {
+    if (minutes * minute_m >= 0.5 * grid_spacing_m) return minutes;
+  }
+  return 60.0;
+}
+
+void put_ground_grid(const FrameReport& report, const WindowGrid& window, double cos_latitude,
+                     shader::StyleBlock& style) {
+  const double minutes = longitude_minutes(cos_latitude);
+  const double line_east_deg = minutes / 60.0, line_north_deg = 1.0 / 60.0;
+  const GeodeticPosition& eye = report.local.eye;
+  const double east_deg = remainder_of(eye.longitude_deg - window.west_deg, 360.0);
+  const double column = std::floor(east_deg / window.longitude_step_deg);
+  const double row = std::floor((eye.latitude_deg - window.south_deg) / window.latitude_step_deg);
+  const double post_east_deg = window.west_deg + column * window.longitude_step_deg;
+  const double post_north_deg = window.south_deg + row * window.latitude_step_deg;
+  style.ground_grid = {f(remainder_of(post_east_deg, line_east_deg) / line_east_deg),
+                       f(remainder_of(post_north_deg, line_north_deg) / line_north_deg),
+                       f(window.longitude_step_deg / line_east_deg),
+                       f(window.latitude_step_deg / line_north_deg)};
+  const double fx = report.camera.fx;
+  const double east_m =
+      minutes * rad_per_minute * report.local.prime_vertical_radius_m * cos_latitude;
+  const double north_m = rad_per_minute * report.local.meridian_radius_m;
+  style.grid_step = {f(east_m * east_m * fx * fx), f(north_m * north_m * fx * fx),
+                     f(1.0 / window.columns), f(1.0 / window.rows)};
+}
+
+/// The parabola through the undulations at the eye and at eight places round it.
+void put_geoid(const FrameReport& report, const GeoidLookup& geoid, double cos_latitude,
+               shader::StyleBlock& style) {
+  if (geoid.undulation_m == nullptr) return;
+  constexpr double share = 0.6;  // of the range: where the picture shows most ground
+  const GeodeticPosition& eye = report.local.eye;
+  const double north_deg = share * report.range_m / (deg * report.local.meridian_radius_m);
+  const double east_deg =
+      share * report.range_m / (deg * report.local.prime_vertical_radius_m * cos_latitude);
+  const auto at = [&](int e, int n) {
+    const double latitude_deg = std::clamp(eye.latitude_deg + n * north_deg, -90.0, 90.0);
+    const double value =
+        geoid.undulation_m(geoid.context, latitude_deg, eye.longitude_deg + e * east_deg);
+    return std::isnan(value) ? 0.0 : value;
+  };
+  const double here = at(0, 0), west = at(-1, 0), east = at(1, 0), south = at(0, -1);
+  const double north = at(0, 1);
+  const double mixed = at(1, 1) - at(-1, 1) - at(1, -1) + at(-1, -1);
+  style.geoid[0] = {f(here), f(0.5 * (east - west) / share), f(0.5 * (north - south) / share),
+                    f((0.5 * (east + west) - here) / (share * share))};
+  style.geoid[1] = {f(0.25 * mixed / (share * share)),
+                    f((0.5 * (north + south) - here) / (share * share)), 0.0f, 0.0f};
+}
+
+bool has_reason(const Availability& availability, Reason reason) {
+  return std::find(availability.reasons.begin(), availability.reasons.end(), reason) !=
+         availability.reasons.end();
+}
+
+int ink_of(Mode mode) {
+  return mode == Mode::removed    ? shader::text_warning
+         : mode == Mode::degraded ? shader::text_caution
+                                  : shader::text_ink;
 }
 
 }  // namespace
@@ -79,21 +159,31 @@ FrameBlocks camera_blocks(const Camera& camera) {
 }
 
 shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& window,
-                               bool attitude_valid) {
+                               const GeoidLookup& geoid, bool attitude_valid) {
   shader::StyleBlock style{};
-  const double a = sun_azimuth_deg * deg, e = sun_elevation_deg * deg;
-  const double haze = report.range_m > 0 ? 1.0 / (haze_range_share * report.range_m) : 0.0;
-  style.sun = {f(std::sin(a) * std::cos(e)), f(std::cos(a) * std::cos(e)), f(std::sin(e)), f(haze)};
+  const Camera& camera = report.camera;
   const bool drawn = report.availability.mode != Mode::removed;
-  // Horizon dip of a smooth sea, as the slope of the line a pilot expects.
-  const double radius = std::max(report.local.meridian_radius_m, 6.3e6);
-  const double height = std::max(report.local.eye.height_m, 0.0);
-  style.legend = {drawn ? 1.0f : 0.0f, attitude_valid ? 1.0f : 0.0f,
-                  f(-std::sqrt(2.0 * height / radius)), 0.0f};
-  const double cos_latitude = std::cos(report.local.eye.latitude_deg * deg);
-  style.post_step = {
-      f(window.longitude_step_deg * deg * report.local.prime_vertical_radius_m * cos_latitude),
-      f(window.latitude_step_deg * deg * report.local.meridian_radius_m), 0.0f, 0.0f};
+  style.legend = {drawn ? 1.0f : 0.0f, attitude_valid ? 1.0f : 0.0f, f(1.0 / camera.width_px),
+                  f(1.0 / camera.height_px)};
+  const glm::dmat3& axes = camera.enu_from_camera.columns;
+  const double slope_per_px = std::hypot(axes[0].z / camera.fx, axes[1].z / camera.fy);
+  const double px_per_slope = 1.0 / std::max(slope_per_px, 1e-9);
+  const double contour_px = contour_m * camera.fx;
+  style.line = {f(contour_px * contour_px), f(px_per_slope), camera.width_px >= 1600 ? 1.6f : 1.2f,
+                0.0f};
+  if (!drawn) return style;
+  const double a = sun_azimuth_deg * deg, e = sun_elevation_deg * deg;
+  style.sun = {f(std::sin(a) * std::cos(e)), f(std::cos(a) * std::cos(e)), f(std::sin(e)), 0.0f};
+  style.line.w = f(1.0 / report.range_m);
+  const double cos_latitude = std::max(std::cos(report.local.eye.latitude_deg * deg), 1e-3);
+  const bool ellipsoidal = geoid.undulation_m == nullptr;
+  style.post_step = {f(1.0 / (window.longitude_step_deg * deg *
+                              report.local.prime_vertical_radius_m * cos_latitude)),
+                     f(1.0 / (window.latitude_step_deg * deg * report.local.meridian_radius_m)),
+                     ellipsoidal ? 0.0f : f(geoid_sea_roughness_m),
+                     f(ellipsoidal ? sea_height_m : geoid_sea_height_m)};
+  put_ground_grid(report, window, cos_latitude, style);
+  put_geoid(report, geoid, cos_latitude, style);
   return style;
 }
 
@@ -102,16 +192,16 @@ std::span<const std::uint8_t> text_layer(const FrameReport& report, std::span<st
   const auto used = layer.first(static_cast<std::size_t>(std::max(width, 0)) * std::max(height, 0));
   TextLayer text(used, width, height);
   const int scale = width >= 640 ? 2 : 1;
-  const int step = (glyph_rows + 3) * scale, edge = 4 * scale;
+  const int step = (glyph_rows + 5) * scale, edge = 4 * scale;
   constexpr std::string_view notice = "NOT CERTIFIED - SUPPLEMENTAL ONLY";
-  text.line(notice, edge, height - step, scale);
+  text.line(notice, edge, height - step, scale, shader::text_ink);
   const Availability& availability = report.availability;
   if (availability.mode == Mode::removed) {
-    text.centred("SVS OFF", height / 3, 2 * scale);
+    text.centred("SVS OFF", height / 3, 2 * scale, shader::text_warning);
     int y = height / 3 + 3 * step;
     for (const Reason reason : availability.reasons) {
       if (reason_mode(reason) == Mode::removed) {
-        text.centred(reason_word(reason), y, scale);
+        text.centred(reason_word(reason), y, scale, shader::text_ink);
         y += step;
       }
     }
@@ -120,10 +210,14 @@ std::span<const std::uint8_t> text_layer(const FrameReport& report, std::span<st
   char bound[48];
   const int count = std::snprintf(bound, sizeof bound, "BOUND %.2f PX", report.bound_px);
   const std::string_view words(bound, static_cast<std::size_t>(std::max(count, 0)));
-  text.line(words, width - TextLayer::text_width(words, scale) - edge, height - step, scale);
+  const int left = width - TextLayer::text_width(words, scale) - edge;
+  const bool beside = left > TextLayer::text_width(notice, scale) + 3 * edge;
+  const bool raised = has_reason(availability, Reason::bound_exceeded);
+  text.line(words, left, height - (beside ? step : 2 * step), scale,
+            ink_of(raised ? Mode::degraded : Mode::svs));
   int y = edge;
   for (const Reason reason : availability.reasons) {
-    text.line(reason_word(reason), edge, y, scale);
+    text.line(reason_word(reason), edge, y, scale, ink_of(reason_mode(reason)));
     y += step;
   }
   return used;

@@ -31,6 +31,7 @@ class TerrainKeeper {
   [[nodiscard]] const WindowSummary& summary() const { return summary_; }
   [[nodiscard]] double base_height_m() const { return base_height_m_; }
   [[nodiscard]] std::span<const float> posts() const { return posts_; }
+  [[nodiscard]] const GeoidLookup& geoid() const { return geoid_; }
 
  private:
   void fill(const GeodeticPosition& eye);
