@@ -25,8 +25,8 @@ inline constexpr int max_window_posts = 8'192;      ///< per side
 inline constexpr int top_level = 8;                 ///< coarsest node spans 2^8 cells
 
 // --- polar grid ---
-inline constexpr int max_planes = 8'192;
-inline constexpr int max_rows = 4'096;
+inline constexpr int max_planes = 2'048;
+inline constexpr int max_rows = 2'048;
 inline constexpr int grid_segments = 64;  ///< pieces of the plane and row spacing
 
 }  // namespace ridgeline::limits

@@ -8,8 +8,9 @@
 namespace ridgeline {
 namespace {
 
-constexpr double rebase_px = 0.1;             ///< float32 height rounding that is worth a refill
-constexpr double most_nodes_per_pixel = 4.0;  ///< above this, casting every pixel is cheaper
+constexpr double rebase_px = 0.1;     ///< float32 height rounding that is worth a refill
+constexpr int grid_attempts = 8;      ///< to fit the grid into its capacity
+constexpr double coarser = 1.5;       ///< wider spacing for the next attempt
 constexpr double bound_growth = 1.5;  ///< step by which a bound that cannot be met is raised
 
 /// The smallest bound not below the wanted one that this pose allows.
@@ -31,12 +32,17 @@ Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& c
   return Fault::no_error_bound;
 }
 
-PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, const Camera& camera,
-                   const GridSpacing& node_spacing) {
+/// The grid as dense as wanted, or as its capacity allows: spacing costs time, never a pixel.
+PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, const Camera& camera) {
   PolarGrid grid;
-  if (settings.cast_every_pixel) return grid;
-  grid = polar_grid(camera, node_spacing);
-  if (grid.plane_count > sizes.planes || grid.row_count > sizes.rows) grid.used = false;
+  GridSpacing spacing = settings.node_spacing;
+  for (int attempt = 0; attempt < grid_attempts && !settings.cast_every_pixel; ++attempt) {
+    grid = polar_grid(camera, spacing);
+    if (grid.plane_count <= sizes.planes && grid.row_count <= sizes.rows) return grid;
+    if (grid.plane_count > sizes.planes) spacing.planes_px *= coarser;
+    if (grid.row_count > sizes.rows) spacing.rows_px *= coarser;
+  }
+  grid.used = false;
   return grid;
 }
 
@@ -99,11 +105,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   if (report.window.tiles_mismatched > 0) add_reason(report.availability, Reason::tile_refused);
 
   // Projected grid, error buffer, ray cast.
-  PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera, settings.node_spacing);
+  PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera);
   if (grid.used) {
     report.nodes = fill_grid_tables(report.camera, map.value(), grid, tables.planes, tables.slopes);
-    const double pixels = static_cast<double>(report.camera.width_px) * report.camera.height_px;
-    if (static_cast<double>(report.nodes) > most_nodes_per_pixel * pixels) grid.used = false;
   }
   blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.grid(),
                         terrain.summary(), terrain.base_height_m());

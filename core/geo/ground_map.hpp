@@ -19,7 +19,8 @@ namespace ridgeline {
 /// The ellipsoid itself does not follow the circle: at (alpha, g) it lies
 ///   swell = w_0 (N/range)^3 + w_1 (E/range)^2 (N/range)
 /// outside it, and heights count from there: R above stands for R + swell.
-/// What these formulas leave out (its normals leave the plane, the series end) is measured against GeographicLib when the map is made: `error_rad`.
+/// What these formulas leave out (its normals leave the plane, the series end) is measured against
+/// GeographicLib when the map is made: `error_rad`.
 struct GroundMap {
   double range_m = 0;
   double inverse_meridian_radius = 0;        ///< 1/M

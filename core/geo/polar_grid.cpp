@@ -172,7 +172,7 @@ PolarGrid polar_grid(const Camera& camera, const GridSpacing& spacing) {
   const int rows = number_segments(grid.rows, (grid.slope_high - grid.slope_low) / segment_count);
   grid.plane_count = grid.full_circle ? planes : planes + 1;
   grid.row_count = rows + 1;
-  grid.used = grid.plane_count <= limits::max_planes && grid.row_count <= limits::max_rows;
+  grid.used = true;
   return grid;
 }
 

@@ -49,8 +49,7 @@ struct GridSpacing {
 
 /// Grid for one camera.
 /// Units:  pixels of the picture.
-/// Domain: spacings > 0. Grids above limits::max_planes or max_rows are not made: `used` is
-///         false and plane_count or row_count says what was asked for.
+/// Domain: spacings > 0. Whether the counts fit the node texture is the caller's to check.
 /// Cost:   about 1e5 operations, no allocation.
 PolarGrid polar_grid(const Camera& camera, const GridSpacing& spacing);
 

@@ -57,7 +57,7 @@ Outcome Session::open_renderer(int columns, int rows) {
   surface_ = std::move(surface).value();
   const ImageGeometry& image = options_.settings.image;
   const RenderSizes sizes{image.width_px, image.height_px,        columns,
-                          rows,           limits::max_planes / 2, limits::max_rows};
+                          rows,           limits::max_planes, limits::max_rows};
   auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
   if (!renderer) {
     return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
