@@ -125,6 +125,15 @@ TEST_P(Places, antimeridian) {
                pixels);
 }
 
+TEST_P(Places, antimeridian_seen_from_the_east_first) {
+  // 2026-11-22: a window that began east of 180 degrees left the western tile out.
+  Land land(rough_with_voids_m);
+  land.add_tile(-17, 179);
+  land.add_tile(-17, -180);
+  Scene s(land, small_image, GetParam(), range_m, {-16.5, -179.98, 2000});
+  expect_sound(s, {{{-16.5, -179.98, 2000}, {-5, -6, 270}}}, pixels);
+}
+
 TEST_P(Places, one_arc_second_tile) {
   Land land(rough_m);
   land.add_tile(36, 5, 3601);
