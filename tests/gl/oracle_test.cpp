@@ -13,13 +13,9 @@ constexpr int pixels = 250;
 /// One 3" tile of rough land with voids, far north of the equator.
 class RoughLand : public testing::TestWithParam<double> {
  protected:
-  static Land& land() {
-    static Land* const made = [] {
-      auto* const l = new Land(rough_with_voids_m);
-      l->add_tile(46, 8);
-      return l;
-    }();
-    return *made;
+  static const Land& land() {
+    static const RoughTile made;
+    return made;
   }
   static Pose over(double latitude_deg, double longitude_deg, double height_m,
                    const Attitude& attitude) {
