@@ -61,6 +61,7 @@ bool merge_tile(const WindowGrid& grid, const HeightTile& tile, std::span<float>
   const AxisFit rows =
       fit_axis(grid.south_deg, grid.latitude_step_deg, t.south_deg, t.latitude_step_deg);
   double west = t.west_deg;  // the copy of the tile that overlaps the window
+  while (west > grid.longitude_deg(grid.columns - 1)) west -= 360.0;
   while (west + 360.0 <= grid.longitude_deg(grid.columns - 1)) west += 360.0;
   while (west + (t.columns - 1) * t.longitude_step_deg < grid.west_deg) west += 360.0;
   const AxisFit columns =

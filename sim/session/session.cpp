@@ -71,9 +71,22 @@ Outcome Session::open_renderer(int columns, int rows) {
   text_.resize(pixels);
   range_words_.resize(4 * pixels);
   rgba_.resize(4 * pixels);
+  warm_up();
   const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
   terrain_.emplace(*this, geoid, columns, rows, posts_, scratch_);
   return {};
+}
+
+/// Runs every shader once over nothing. A driver compiles a shader at its first use; that belongs
+/// to boot, and its allocations are not the frame path's.
+void Session::warm_up() {
+  FrameBlocks nothing{};
+  nothing.frame.ray_origin.w = -1.0f;  // a display range that every ray has left
+  renderer_->upload_window(posts_);
+  renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1));
+  renderer_->upload_text(text_);
+  renderer_->shade(nothing, shader::StyleBlock{});
+  static_cast<void>(renderer_->read_counters());
 }
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {

@@ -57,6 +57,7 @@ class Session final : public TerrainPort {
 
  private:
   Outcome open_renderer(int columns, int rows);
+  void warm_up();
 
   SceneOptions options_;
   GeotiffReader geotiff_;

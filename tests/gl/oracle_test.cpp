@@ -13,13 +13,9 @@ constexpr int pixels = 250;
 /// One 3" tile of rough land with voids, far north of the equator.
 class RoughLand : public testing::TestWithParam<double> {
  protected:
-  static Land& land() {
-    static Land* const made = [] {
-      auto* const l = new Land(rough_with_voids_m);
-      l->add_tile(46, 8);
-      return l;
-    }();
-    return *made;
+  static const Land& land() {
+    static const RoughTile made;
+    return made;
   }
   static Pose over(double latitude_deg, double longitude_deg, double height_m,
                    const Attitude& attitude) {
@@ -123,6 +119,15 @@ TEST_P(Places, antimeridian) {
                 {{-16.5, -179.98, 2000}, {-5, -6, 270}},
                 {{-16.4, 180, 2300}, {0, -10, 0}}},
                pixels);
+}
+
+TEST_P(Places, antimeridian_seen_from_the_east_first) {
+  // 2026-11-22: a window that began east of 180 degrees left the western tile out.
+  Land land(rough_with_voids_m);
+  land.add_tile(-17, 179);
+  land.add_tile(-17, -180);
+  Scene s(land, small_image, GetParam(), range_m, {-16.5, -179.98, 2000});
+  expect_sound(s, {{{-16.5, -179.98, 2000}, {-5, -6, 270}}}, pixels);
 }
 
 TEST_P(Places, one_arc_second_tile) {

@@ -18,7 +18,7 @@ struct Pose {
 /// A folder of tiles that a test writes for itself, and the heights it wrote.
 class Land {
  public:
-  /// `voids`: the posts that `height_m` gives as NaN stay void.
+  /// Posts that `height_m` gives as NaN are void.
   explicit Land(sim::HeightFunction height_m) : height_m_(std::move(height_m)) {}
 
   /// Adds one tile of `posts` x `posts`; aborts the test program where it cannot be written.
@@ -43,6 +43,12 @@ class Land {
 double rough_m(double latitude_deg, double longitude_deg);
 /// The same with void islands and single void posts.
 double rough_with_voids_m(double latitude_deg, double longitude_deg);
+
+/// One 3" tile of that land at 46 N 8 E.
+class RoughTile : public Land {
+ public:
+  RoughTile() : Land(rough_with_voids_m) { add_tile(46, 8); }
+};
 
 /// A session over a land on the surfaceless context, and the dumps it leaves.
 class Scene {

@@ -60,13 +60,9 @@ void expect_same_both_ways(Scene& scene, const Pose& pose) {
 
 class Sweep : public testing::Test {
  protected:
-  static Land& land() {
-    static Land* const made = [] {
-      auto* const l = new Land(rough_with_voids_m);
-      l->add_tile(46, 8);
-      return l;
-    }();
-    return *made;
+  static const Land& land() {
+    static const RoughTile made;
+    return made;
   }
 };
 
