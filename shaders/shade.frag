@@ -35,14 +35,9 @@ float geoid_m(vec2 at) {
          at.y * (geoid[0].z + geoid[1].y * at.y);
 }
 
-// Four posts whose south-west one is `post`; x north-west, y north-east, z south-east, w south-west.
+// Four posts, the south-west one named: x north-west, y north-east, z south-east, w south-west.
 vec4 four_posts(ivec2 post) {
   return textureGather(posts_texture, (vec2(post) + 1.0) * grid_step.zw);
-}
-
-// A void post gives way to the straight line through the two posts beside it.
-vec2 or_straight(vec2 outer, vec2 near, vec2 far) {
-  return mix(outer, 2.0 * near - far, lessThan(outer, vec2(void_threshold)));
 }
 
 struct Relief {
@@ -50,31 +45,36 @@ struct Relief {
   float roughness;  // m between the highest and the lowest post of the cell
 };
 
-// Central differences at the four posts of the cell, bilinear in between.
+// Rise between two posts, blended with that of the next pair over; a void post has no say.
+vec2 blended(vec2 rise, vec2 near, vec2 outer, float side, float share) {
+  vec2 beyond = mix(side * (outer - near), rise, lessThan(outer, vec2(void_threshold)));
+  return mix(rise, beyond, share);
+}
+
+// A rise belongs to the middle of its edge and is bilinear from there to the next ones.
 Relief relief_at(ivec2 cell, vec2 f) {
   ivec2 p = clamp(window.xy + cell, ivec2(1), window.zw - 3);
-  vec4 sw = four_posts(p - 1);
-  vec4 se = four_posts(p + ivec2(1, -1));
-  vec4 nw = four_posts(p + ivec2(-1, 1));
-  vec4 ne = four_posts(p + 1);
-  vec2 south = vec2(sw.y, se.x), north = vec2(nw.z, ne.w);    // the cell, west to east
-  vec2 west = vec2(sw.y, nw.z), east = vec2(se.x, ne.w);      // the cell, south to north
-  vec2 southern = or_straight(vec2(sw.z, se.w), south, north);
-  vec2 northern = or_straight(vec2(nw.y, ne.x), north, south);
-  vec2 western = or_straight(vec2(sw.x, nw.w), west, east);
-  vec2 eastern = or_straight(vec2(se.y, ne.z), east, west);
-  vec2 x = mix(east - western, eastern - west, f.x);
-  vec2 y = mix(north - southern, northern - south, f.y);
+  bvec2 upper = greaterThan(f, vec2(0.5));
+  ivec2 side = ivec2(upper) * 2 - 1;
+  vec4 here = four_posts(p);
+  vec4 beside = four_posts(p + ivec2(side.x, 0));
+  vec4 above = four_posts(p + ivec2(0, side.y));
+  vec2 west = here.wx, east = here.zy, south = here.wz, north = here.xy;
+  vec2 share = abs(f - 0.5);
+  vec2 x = blended(east - west, upper.x ? east : west, upper.x ? beside.zy : beside.wx,
+                   float(side.x), share.x);
+  vec2 y = blended(north - south, upper.y ? north : south, upper.y ? above.xy : above.wz,
+                   float(side.y), share.y);
   Relief r;
-  r.gradient = 0.5 * vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x));
+  r.gradient = vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x));
   vec2 low = min(south, north), high = max(south, north);
   r.roughness = max(high.x, high.y) - min(low.x, low.y);
   if (min(low.x, low.y) < void_threshold) r.gradient = vec2(0.0);  // rounding next to a void
   return r;
 }
 
-// How much of a pixel a line covers: `offset` in lines from any line, `px2` the square of the pixels
-// between two lines. Fades before neighbouring lines would run together.
+// How much of a pixel a line covers: `offset` in lines from any line, `px2` the square of the
+// pixels between two lines. Fades before neighbouring lines would run together.
 vec3 line_cover(vec3 offset, vec3 px2) {
   vec3 near = fract(offset + 0.5) - 0.5;
   return clamp(line.z - near * near * px2, 0.0, 1.0) * clamp(px2 * 0.008 - 0.4, 0.0, 1.0);
