@@ -56,7 +56,7 @@ Outcome Session::open_renderer(int columns, int rows) {
   if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
   surface_ = std::move(surface).value();
   const ImageGeometry& image = options_.settings.image;
-  const RenderSizes sizes{image.width_px, image.height_px,        columns,
+  const RenderSizes sizes{image.width_px, image.height_px,    columns,
                           rows,           limits::max_planes, limits::max_rows};
   auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
   if (!renderer) {
