@@ -67,6 +67,7 @@ TerrainKeeper::TerrainKeeper(TerrainPort& port, const GeoidLookup& geoid, int co
 }
 
 bool TerrainKeeper::follow(const GeodeticPosition& eye, double range_m) {
+  range_m_ = range_m;
   if (filled_) {
     const GeoBox needed = range_box(eye.latitude_deg, eye.longitude_deg, range_m);
     if (inside(needed, window_box(grid_, window_margin_posts))) return false;
@@ -89,23 +90,16 @@ void TerrainKeeper::rebase(const GeodeticPosition& eye) {
 }
 
 void TerrainKeeper::fill(const GeodeticPosition& eye) {
-  // Tiles are chosen by the box the window will have; its steps are those of the tiles, so the
-  // choice is made with the widest steps first and once more with the right ones.
-  const double half = 0.5 * std::max(columns_, rows_);
-  const PostSteps before = finest_steps(
-      port_.select(range_box(eye.latitude_deg, eye.longitude_deg, limits::min_range_m)));
-  double step_lat = before.latitude_deg, step_lon = before.longitude_deg;
-  if (step_lat == 0) step_lat = step_lon = 1.0 / 1200.0;
-  const GeoBox around{eye.latitude_deg - half * step_lat, eye.longitude_deg - half * step_lon,
-                      eye.latitude_deg + half * step_lat, eye.longitude_deg + half * step_lon};
-  const std::span<const HeightTile> tiles = port_.select(around);
-  const PostSteps steps = finest_steps(tiles);
-  if (steps.latitude_deg > 0) {
-    step_lat = steps.latitude_deg;
-    step_lon = steps.longitude_deg;
-  }
+  // The window takes the finest step of the tiles within the display range; what it then holds is
+  // chosen by its own box, which may be larger or, where it cannot cover the range, smaller.
+  constexpr double srtm3_deg = 1.0 / 1200.0;  // no tile in range: any step will do, all is unknown
+  const GeoBox in_range = range_box(eye.latitude_deg, eye.longitude_deg, range_m_);
+  const PostSteps steps = finest_steps(port_.select(in_range));
+  const double step_lat = steps.latitude_deg > 0 ? steps.latitude_deg : srtm3_deg;
+  const double step_lon = steps.longitude_deg > 0 ? steps.longitude_deg : srtm3_deg;
   grid_ = window_grid_at(eye.latitude_deg, eye.longitude_deg, step_lat, step_lon,
                          steps.phase_latitude_deg, steps.phase_longitude_deg, columns_, rows_);
+  const std::span<const HeightTile> tiles = port_.select(window_box(grid_, 0));
   base_height_m_ = std::round(eye.height_m);
   summary_ = fill_window(grid_, tiles, geoid_, base_height_m_, posts_, scratch_);
   filled_ = true;

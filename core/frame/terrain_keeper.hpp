@@ -40,6 +40,7 @@ class TerrainKeeper {
   GeoidLookup geoid_;
   int columns_, rows_;
   std::span<float> posts_, scratch_;
+  double range_m_ = 0;
   bool filled_ = false;
   WindowGrid grid_;
   WindowSummary summary_;
