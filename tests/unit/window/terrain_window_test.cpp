@@ -232,5 +232,31 @@ TEST(TerrainKeeper, fills_the_window_only_when_the_range_would_leave_it) {
   EXPECT_NEAR(keeper.height_over_terrain_m({46.7, 8.5, 950}), 650, 0.01);
 }
 
+/// One tile, handed out only for boxes that meet it.
+class DistantTile final : public TerrainPort {
+ public:
+  explicit DistantTile(const HeightTile& tile) : tile_(tile) {}
+  std::span<const HeightTile> select(const GeoBox& box) override {
+    return overlaps(box, tile_.grid) ? std::span<const HeightTile>(&tile_, 1)
+                                     : std::span<const HeightTile>();
+  }
+  [[nodiscard]] int refused_count() const override { return 0; }
+
+ private:
+  HeightTile tile_;
+};
+
+// 2026-11-22: steps came from tiles within 1 km, so a coarse tile 30 km away was never chosen.
+TEST(TerrainKeeper, finds_a_coarse_tile_at_the_far_side_of_its_range) {
+  const Tile tile(grid_of(5, 0, 121, 10), [](int, int) { return 70.0F; });
+  DistantTile port(tile.view);
+  std::vector<float> posts(512 * 512);
+  std::vector<float> scratch(2 * static_cast<std::size_t>(limits::max_window_posts));
+  TerrainKeeper keeper(port, {}, 512, 512, posts, scratch);
+  EXPECT_TRUE(keeper.follow({5.6, -0.3, 900}, 60'000));
+  EXPECT_GT(keeper.summary().known_posts, 0);
+  EXPECT_EQ(keeper.covered_range_m({5.6, -0.3, 900}, 60'000), 60'000);
+}
+
 }  // namespace
 }  // namespace ridgeline
