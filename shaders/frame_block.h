@@ -20,11 +20,9 @@ RL_CONST(segment_count, 64);
 // Texture units.
 RL_CONST(posts_unit, 0);
 RL_CONST(highest_unit, 1);
-RL_CONST(lowest_unit, 2);
 RL_CONST(nodes_unit, 3);
 RL_CONST(range_unit, 4);
 RL_CONST(text_unit, 5);
-RL_CONST(geoid_unit, 6);
 
 // Bytes of the text layer; 0 is no text.
 RL_CONST(text_plate, 60);
@@ -34,7 +32,6 @@ RL_CONST(text_ink, 255);
 
 // Image units.
 RL_CONST(target_image, 0);
-RL_CONST(second_image, 1);
 
 // Shader storage buffers.
 RL_CONST(planes_buffer, 0);
