@@ -121,32 +121,67 @@ void measure_blocks(const WindowGrid& grid, std::span<const float> posts, Window
   summary.highest_m = static_cast<double>(highest);
 }
 
-/// The floor of void posts in one block; see the comment at void_offset_m.
-float unknown_floor(int bx, int by, float far_floor) {
-  const float own = blocks.lowest[by * blocks.columns + bx];
-  if (own < 1e9f) return own;
-  float highest = -1e9f;
+constexpr float none_known = -1e9f;
+
+/// Highest known posts of the aligned blocks of 8, 16 and 32 posts inside one block of 64.
+struct LocalHighest {
+  std::array<std::array<float, 64>, 3> of{};  ///< by size; row-major, 8 x 8, 4 x 4, 2 x 2 of them
+};
+
+LocalHighest local_highest(const WindowGrid& grid, std::span<const float> posts, int bx, int by) {
+  LocalHighest local;
+  for (auto& blocks_of_size : local.of) blocks_of_size.fill(none_known);
+  for (int y = 0; y < block_posts; ++y) {
+    const auto row = static_cast<std::size_t>(by * block_posts + y) * grid.columns;
+    for (int x = 0; x < block_posts; ++x) {
+      const float h = posts[row + static_cast<std::size_t>(bx) * block_posts + x];
+      if (std::isnan(h)) continue;
+      for (int k = 0; k < 3; ++k) {
+        float& highest = local.of[k][(y >> (3 + k)) * (8 >> k) + (x >> (3 + k))];
+        highest = std::max(highest, h);
+      }
+    }
+  }
+  return local;
+}
+
+/// The floor of a block without a known post; see the comment at void_offset_m.
+float bare_floor(int bx, int by, float far_floor) {
+  float highest = none_known;
   for (int y = std::max(0, by - 2); y <= std::min(blocks.rows - 1, by + 2); ++y) {
     for (int x = std::max(0, bx - 2); x <= std::min(blocks.columns - 1, bx + 2); ++x) {
       highest = std::max(highest, blocks.highest[y * blocks.columns + x]);
     }
   }
-  return highest > -1e9f ? highest : far_floor;
+  return highest > none_known ? highest : far_floor;
+}
+
+void mark_block(const WindowGrid& grid, int bx, int by, float far_floor, std::span<float> posts,
+                WindowSummary& summary) {
+  const float own = blocks.highest[by * blocks.columns + bx];
+  const bool bare = !(own > none_known);
+  const float outer = bare ? bare_floor(bx, by, far_floor) : own;
+  const LocalHighest local = bare ? LocalHighest{} : local_highest(grid, posts, bx, by);
+  for (int y = 0; y < block_posts; ++y) {
+    const auto row = static_cast<std::size_t>(by * block_posts + y) * grid.columns;
+    for (int x = 0; x < block_posts; ++x) {
+      float& post = posts[row + static_cast<std::size_t>(bx) * block_posts + x];
+      if (!std::isnan(post)) continue;
+      float floor = none_known;
+      for (int k = 0; k < 3 && !bare && !(floor > none_known); ++k) {
+        floor = local.of[k][(y >> (3 + k)) * (8 >> k) + (x >> (3 + k))];
+      }
+      post = (floor > none_known ? floor : outer) - void_offset_m;
+      ++summary.void_posts;
+    }
+  }
 }
 
 void mark_void_posts(const WindowGrid& grid, float far_floor, std::span<float> posts,
                      WindowSummary& summary) {
   for (int by = 0; by < blocks.rows; ++by) {
     for (int bx = 0; bx < blocks.columns; ++bx) {
-      const float marked = unknown_floor(bx, by, far_floor) - void_offset_m;
-      for (int y = by * block_posts; y < (by + 1) * block_posts; ++y) {
-        float* row = &posts[static_cast<std::size_t>(y) * grid.columns + bx * block_posts];
-        for (int x = 0; x < block_posts; ++x) {
-          if (!std::isnan(row[x])) continue;
-          row[x] = marked;
-          ++summary.void_posts;
-        }
-      }
+      mark_block(grid, bx, by, far_floor, posts, summary);
     }
   }
 }

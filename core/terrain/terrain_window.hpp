@@ -25,10 +25,10 @@ struct WindowGrid {
 ///
 /// A known post is stored as its height minus `base_height_m`. A void post is stored as
 /// `floor - void_offset_m`, floor being the height (minus base) up to which its cells are drawn as
-/// unknown: the lowest known post of its own aligned block of 64 x 64 posts; where that holds none,
-/// the highest known post of the 5 x 5 blocks round it; where those hold none, `far_floor_m` above
-/// the lowest known post of the window. All three lie between what the contract says must and may
-/// be unknown (docs/adr/0006).
+/// unknown: the highest known post of the smallest aligned block of 8, 16, 32 or 64 posts a side
+/// that holds the void post and a known one; where there is none, the highest known post of the 5 x
+/// 5 blocks round it; where those hold none, `far_floor_m` above the lowest known post of the
+/// window. All three lie between what the contract says must and may be unknown (docs/adr/0006).
 inline constexpr float void_offset_m = 100'000.0f;
 inline constexpr float void_threshold_m = -50'000.0f;
 inline constexpr double far_floor_m = 100.0;
