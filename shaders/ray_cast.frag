@@ -117,7 +117,8 @@ float first_hit(Ray r, float start, int level) {
     }
     if (hit <= leave) {
       t += hit;
-      return t > range ? sky : (c.unknown ? -t : t);
+      // Never -0, which is no sign at all: the eye may stand inside an unknown floor.
+      return t > range ? sky : (c.unknown ? -max(t, 1.0e-3) : t);
     }
     parent = (window.xy + cell) >> 1;
     t += leave;

@@ -159,6 +159,21 @@ TEST(Unknown, a_void_island_is_unknown_and_nothing_but_it) {
   }
 }
 
+// 2026-11-22: an eye inside the floor of unknown ground gave -0 m, which read as known ground.
+TEST(Unknown, an_eye_inside_its_floor_sees_nothing_but_unknown) {
+  const Land land([](double latitude_deg, double longitude_deg) {
+    const bool inside =
+        std::abs(latitude_deg - 46.5) < 0.01 && std::abs(longitude_deg - 8.5) < 0.01;
+    return inside ? std::nan("") : 900.0;
+  });
+  land.add_tile(46, 8);
+  constexpr ImageGeometry image{64, 64, 60};
+  Scene scene(land, image, 1.0, 15'000, {46.5, 8.5, 0});
+  const sim::Picture picture = scene.draw({{46.5, 8.5, 400}, {0, -5, 37}});
+  ASSERT_NE(picture.report.availability.mode, Mode::removed);
+  for (const float range : picture.range_m) EXPECT_TRUE(std::isnan(range));
+}
+
 TEST(Unknown, a_missing_tile_is_neither_sky_nor_sea) {
   const Land land([](double, double) { return 100.0; });
   land.add_tile(46, 8);
