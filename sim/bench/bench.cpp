@@ -10,6 +10,7 @@
 
 #include "sim/bench/bench_judge.hpp"
 #include "sim/output/atomic_file.hpp"
+#include "sim/output/percentile.hpp"
 #include "tests/oracle/input_error.hpp"
 
 namespace ridgeline::sim {
@@ -32,12 +33,6 @@ double process_cpu_ms() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
 std::vector<Method> methods_of(const FrameSettings& base) {

@@ -6,18 +6,12 @@
 #include <numeric>
 
 #include "platform/heap_counter.hpp"
+#include "sim/output/percentile.hpp"
 
 namespace ridgeline::sim {
 namespace {
 
 constexpr const char* pass_names[pass_count] = {"grid", "ray_cast", "shade"};
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(share * last + 0.5)];
-}
 
 nlohmann::ordered_json percentiles(const std::vector<double>& values) {
   return {{"median", percentile(values, 0.5)},
