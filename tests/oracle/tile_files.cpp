@@ -106,11 +106,12 @@ Tile read_hgt(const std::filesystem::path& file) {
   const Bytes bytes = file_bytes(file);
   Tile tile;
   tile.name = file.filename().string();
-  for (const std::size_t side : {1201U, 3601U}) {
+  for (const std::size_t side : {1201U, 3601U, 10801U}) {
     if (bytes.size() == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
   }
-  if (tile.rows == 0)
-    throw InputError(file.string(), "size is neither 1201 nor 3601 posts squared");
+  if (tile.rows == 0) {
+    throw InputError(file.string(), "size is not 1201, 3601 or 10801 posts squared");
+  }
   tile.south_deg = corner->south_deg;
   tile.west_deg = corner->west_deg;
   tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
