@@ -16,6 +16,8 @@ void add_verify_command(CLI::App& program, int& status) {
   command->add_option("--terrain", options->terrain_folder, "folder of raw elevation tiles")
       ->required();
   command->add_option("--geoid", options->geoid, "geoid file or `none`");
+  command->add_option("--coverage", options->coverage_file, "list of cells that are sea");
+  command->add_option("--edit", options->edit_file, "timed edits that the replay was given");
   command->add_option("--pixels", options->pixels_per_frame, "pixels a frame, half at depth jumps")
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();

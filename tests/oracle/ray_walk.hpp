@@ -241,20 +241,23 @@ class RayWalk {
     return false;
   }
 
-  const Tile& nearest_tile(double lat, double lon) const {
-    const Tracer::View* best = &tracer_.views().front();
+  /// The nearest tile of a file: stated sea has cells of a degree, which say nothing of the data
+  /// that is missing. Null where all is stated sea.
+  const Tile* nearest_tile(double lat, double lon) const {
+    const Tile* best = nullptr;
     double best_distance = std::numeric_limits<double>::infinity();
     for (const Tracer::View& view : tracer_.views()) {
+      if (view.entry->tile.is_sea) continue;
       const double north = std::max({view.south_deg - lat, lat - view.north_deg, 0.0});
       const double east =
           std::max({view.west_deg - lon, lon - view.east_deg, 0.0}) * std::cos(lat * degree_rad);
       const double distance = north * north + east * east;
       if (distance < best_distance) {
         best_distance = distance;
-        best = &view;
+        best = &view.entry->tile;
       }
     }
-    return best->entry->tile;
+    return best;
   }
 
   /// Ground without a tile: unknown cells with the steps of the nearest tile.
@@ -263,7 +266,12 @@ class RayWalk {
     const Piece piece{&stretch_, &height_, nullptr, nullptr, from, to};
     if (piece.lowest_m() >= std::max(may_below_m_, tracer_.terrain().highest_post_m())) return;
     const double middle = 0.5 * (from + to);
-    const Tile& tile = nearest_tile(stretch_.lat_deg.at(middle), stretch_.lon_deg.at(middle));
+    const Tile* nearest = nearest_tile(stretch_.lat_deg.at(middle), stretch_.lon_deg.at(middle));
+    if (nearest == nullptr) {
+      visitor_.unknown(tracer_.terrain().lowest_post_m(), may_below_m_, piece);
+      return;
+    }
+    const Tile& tile = *nearest;
     const Range lat = range_of(stretch_.lat_deg, from, to);
     const Range lon = range_of(stretch_.lon_deg, from, to);
     const double extent = std::max((lat.high - lat.low) / tile.lat_step_deg,
@@ -277,7 +285,7 @@ class RayWalk {
     }
     const double must_below =
         near_a_tile(lat, lon, tile)
-            ? tracer_.terrain().must_below_m(lat.low, lat.high, lon.low, lon.high,
+            ? tracer_.terrain().must_below_m({lat.low, lat.high, lon.low, lon.high},
                                              tile.lat_step_deg, tile.lon_step_deg)
             : tracer_.terrain().lowest_post_m();
     visitor_.unknown(must_below, may_below_m_, piece);

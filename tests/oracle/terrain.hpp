@@ -29,10 +29,11 @@ struct BlockLevel {
   int columns = 0;
   std::vector<Block> blocks;
 
-  [[nodiscard]] const Block& at(int row, int column) const {
-    return blocks[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                  static_cast<std::size_t>(column)];
+  [[nodiscard]] std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
   }
+  [[nodiscard]] const Block& at(int row, int column) const { return blocks[index(row, column)]; }
 };
 
 struct TerrainTile {
@@ -47,12 +48,28 @@ struct Neighbourhood {
   double radius_m = 0;
 };
 
+/// What stood where posts were replaced.
+struct ReplacedPosts {
+  struct Post {
+    std::size_t tile;  ///< in Terrain::tiles()
+    int row;
+    int column;
+    float height_m;  ///< the height before, NaN = void
+  };
+  std::vector<Post> posts;
+  double lowest_elsewhere_m = 0;
+};
+
 /// The truth of the contract, section 1: every loaded post, as read.
 ///
 /// - Tiles of one lattice that overlap in posts (a shared edge, in the usual case) share them: the
 ///   taller height is the truth, and a post that either of them knows is known.
 /// - Tiles of different steps share the posts that coincide on a common edge. Where they overlap in
 ///   area the finer one is the truth, its voids included.
+/// - A cell of the coverage list that no file reaches into is a tile with a post of 0 m at each
+///   corner. It shares posts like any other tile.
+/// - Replaced posts are the truth in every tile that has a post there, without a look at what they
+///   replace or at what another tile says.
 /// - Nothing else fills a void.
 class Terrain {
  public:
@@ -64,9 +81,21 @@ class Terrain {
   /// Reads every tile of a folder and of its sub-folders, one level deep, and keeps those near one
   /// of `places` (all, if there are none). The others still count for the lowest post of the loaded
   /// terrain. A tile that cannot be read is a missing tile: unknown ground, named by refused().
+  /// A cell of `coverage` is sea unless a file reaches into it, or a refused file's name names it.
   /// Errors: InputError naming the folder, also where none of its tiles can be read.
+  /// Cost:   reads every file; memory 4 bytes a post of the tiles kept.
   [[nodiscard]] static Terrain load(const std::filesystem::path& folder, Geoid geoid,
-                                    const std::vector<Neighbourhood>& places);
+                                    const std::vector<Neighbourhood>& places,
+                                    const std::vector<DegreeCell>& coverage = {});
+
+  /// Replaces every post of every tile kept that stands where a post of `patch` stands.
+  /// Cost: grows with the posts of the patch, and with the blocks near it that hold unknown cells.
+  ReplacedPosts replace(const Tile& patch);
+  /// Undoes a replacement. Domain: the last one that has not been undone.
+  void put_back(const ReplacedPosts& replaced);
+  /// Whether some tile of the folder, kept or not, has the steps of `patch` (to a millionth) and a
+  /// post where a post of it stands.
+  [[nodiscard]] bool has_lattice_of(const Grid& patch) const;
 
   /// The tiles, finest first.
   [[nodiscard]] const std::vector<TerrainTile>& tiles() const { return tiles_; }
@@ -75,7 +104,10 @@ class Terrain {
   [[nodiscard]] double highest_post_m() const { return highest_post_m_; }
   /// One line for every tile of the folder that could not be read: the file, then the fault.
   [[nodiscard]] const std::vector<std::string>& refused() const { return refused_; }
-  /// The steepest rise per run between known neighbouring posts.
+  /// Cells of the coverage list: those that are sea, and those that are not because of a file.
+  [[nodiscard]] int sea_cells() const { return sea_cells_; }
+  [[nodiscard]] int ignored_sea_cells() const { return ignored_sea_cells_; }
+  /// At least the steepest rise per run between known neighbouring posts.
   [[nodiscard]] double steepest() const { return steepest_; }
 
   /// The height over the datum below which passing over the unknown cells of a box *must* show
@@ -85,23 +117,26 @@ class Terrain {
   /// alignment reaches at most 127 cells from the cell, and at least 64 to every side; the lowest
   /// post of the whole terrain is taken unless the part that all alignments share has a known post.
   /// Units: degrees, the box at most some hundred cells wide; steps of the cells in question.
-  [[nodiscard]] double must_below_m(double south_deg, double north_deg, double west_deg,
-                                    double east_deg, double lat_step_deg,
+  [[nodiscard]] double must_below_m(const GeoBox& box, double lat_step_deg,
                                     double lon_step_deg) const;
 
  private:
   void share_posts();
-  void summarise(double lowest_elsewhere_m);
+  void summarise();
+  void summarise_changed(const std::vector<ReplacedPosts::Post>& posts);
+  void summarise_whole(const std::vector<GeoBox>& changed);
+  void set_thresholds(TerrainTile& entry, const std::vector<GeoBox>* changed);
 
   std::vector<TerrainTile> tiles_;
+  std::vector<Grid> far_grids_;  ///< of the tiles of the folder that were not kept
   std::vector<std::string> refused_;
   Geoid geoid_;
+  int sea_cells_ = 0;
+  int ignored_sea_cells_ = 0;
+  double lowest_elsewhere_m_ = 0;
   double lowest_post_m_ = 0;
   double highest_post_m_ = 0;
   double steepest_ = 0;
 };
-
-/// The longitude of `west_deg` on the turn that brings the middle of a tile closest to `near_deg`.
-[[nodiscard]] double west_on_turn(const Tile& tile, double near_deg);
 
 }  // namespace ridgeline::oracle

@@ -16,11 +16,17 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
+constexpr std::uintmax_t longest_file_bytes = std::uintmax_t{1} << 30U;
+
 Bytes file_bytes(const std::filesystem::path& file) {
+  std::error_code fault;
+  const std::uintmax_t size = std::filesystem::file_size(file, fault);
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string(), "cannot be opened");
-  Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) throw InputError(file.string(), "cannot be read");
+  if (fault || !in) throw InputError(file.string(), "cannot be opened");
+  if (size > longest_file_bytes) throw InputError(file.string(), "is longer than any tile");
+  Bytes bytes(static_cast<std::size_t>(size));
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throw InputError(file.string(), "cannot be read");
   return bytes;
 }
 
@@ -77,13 +83,10 @@ Tile dted_header(const std::string& file, const Bytes& bytes) {
   return tile;
 }
 
-struct Corner {
-  double south_deg;
-  double west_deg;
-};
+}  // namespace
 
-/// The corner in a lower-case name such as `n46e008.hgt` or `n46_e008.srtmgl1.hgt`.
-std::optional<Corner> corner_in_name(std::string name) {
+std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file) {
+  std::string name = lower(file.filename().string());
   if (name.size() > 3 && name[3] == '_') name.erase(3, 1);
   if (name.size() < 7 || (name.size() > 7 && std::isalnum(static_cast<unsigned char>(name[7])))) {
     return std::nullopt;
@@ -92,25 +95,26 @@ std::optional<Corner> corner_in_name(std::string name) {
   const int lat = number(view.substr(1, 2));
   const int lon = number(view.substr(4, 3));
   const bool sides = (name[0] == 'n' || name[0] == 's') && (name[3] == 'e' || name[3] == 'w');
-  if (!sides || lat < 0 || lat > 90 || lon < 0 || lon > 180) return std::nullopt;
-  const double west = name[3] == 'w' ? -lon : lon;
-  return Corner{static_cast<double>(name[0] == 's' ? -lat : lat), west >= 180 ? west - 360 : west};
+  if (!sides || lat < 0 || lon < 0) return std::nullopt;
+  const DegreeCell cell{name[0] == 's' ? -lat : lat, name[3] == 'w' ? -lon : lon};
+  if (cell.south_deg < -90 || cell.south_deg > 89 || cell.west_deg < -180 || cell.west_deg > 179) {
+    return std::nullopt;
+  }
+  return cell;
 }
 
-}  // namespace
-
 Tile read_hgt(const std::filesystem::path& file) {
-  const std::string name = lower(file.filename().string());
-  const std::optional<Corner> corner = corner_in_name(name);
+  const std::optional<DegreeCell> corner = cell_in_name(file);
   if (!corner) throw InputError(file.string(), "name does not say which tile it is");
   const Bytes bytes = file_bytes(file);
   Tile tile;
   tile.name = file.filename().string();
-  for (const std::size_t side : {1201U, 3601U}) {
+  for (const std::size_t side : {1201U, 3601U, 10801U}) {
     if (bytes.size() == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
   }
-  if (tile.rows == 0)
-    throw InputError(file.string(), "size is neither 1201 nor 3601 posts squared");
+  if (tile.rows == 0) {
+    throw InputError(file.string(), "size is not 1201, 3601 or 10801 posts squared");
+  }
   tile.south_deg = corner->south_deg;
   tile.west_deg = corner->west_deg;
   tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
@@ -130,6 +134,10 @@ Tile read_dted(const std::filesystem::path& file) {
   Tile tile = dted_header(file.string(), bytes);
   tile.name = file.filename().string();
   if (tile.west_deg >= 180) tile.west_deg -= 360;
+  const std::optional<DegreeCell> named = cell_in_name(file);
+  if (named && (named->south_deg != tile.south_deg || named->west_deg != tile.west_deg)) {
+    throw InputError(file.string(), "DTED header is that of another cell");
+  }
   const auto rows = static_cast<std::size_t>(tile.rows);
   const auto columns = static_cast<std::size_t>(tile.columns);
   const std::size_t record = 8 + 2 * rows + 4;

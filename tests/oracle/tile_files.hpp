@@ -6,17 +6,22 @@
 
 namespace ridgeline::oracle {
 
+/// The cell that a file name begins with, such as `N46E008.hgt`, `n46_e008.dt1` or
+/// `s20w180.SRTMGL1.hgt`, in any case; nothing where it names none.
+[[nodiscard]] std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file);
+
 /// The tile in a file, or nothing where the name is not one of a terrain tile. The name decides
 /// the format: `.hgt`, `.dt0` to `.dt2`, `.tif`/`.tiff`, in either case.
 /// Errors: InputError naming the file.
 [[nodiscard]] std::optional<Tile> read_tile(const std::filesystem::path& file);
 
-/// SRTM `.hgt`: 1201 or 3601 posts a side, rows from the north, big-endian, -32768 void; the
-/// name gives the south-west corner.
+/// SRTM `.hgt`: 1201, 3601 or 10801 posts a side, rows from the north, big-endian, -32768 void;
+/// the name gives the south-west corner.
 [[nodiscard]] Tile read_hgt(const std::filesystem::path& file);
 
 /// DTED level 0, 1 or 2: the header gives origin, interval and counts (so every latitude zone is
-/// read alike), heights are sign-magnitude, -32767 void; record checksums are compared.
+/// read alike), heights are sign-magnitude, -32767 void; record checksums are compared. A name that
+/// names another cell is an error.
 /// Source: MIL-PRF-89020B.
 [[nodiscard]] Tile read_dted(const std::filesystem::path& file);
 

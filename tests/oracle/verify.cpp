@@ -10,7 +10,9 @@
 #include <thread>
 #include <utility>
 
+#include "tests/oracle/coverage.hpp"
 #include "tests/oracle/dump.hpp"
+#include "tests/oracle/edits.hpp"
 #include "tests/oracle/input_error.hpp"
 #include "tests/oracle/judge.hpp"
 #include "tests/oracle/pixel_choice.hpp"
@@ -125,6 +127,28 @@ Geoid geoid_of(const VerifyOptions& options, const std::vector<std::filesystem::
   return geoid;
 }
 
+/// The terrain near the drawn frames, or nothing without a drawn frame.
+std::optional<Terrain> terrain_of(const VerifyOptions& options, Geoid geoid,
+                                  const std::vector<Neighbourhood>& places,
+                                  VerifySummary& summary) {
+  std::vector<DegreeCell> coverage;
+  if (options.coverage_file) coverage = read_coverage(*options.coverage_file);
+  if (places.empty()) return std::nullopt;
+  std::optional<Terrain> terrain =
+      Terrain::load(options.terrain_folder, std::move(geoid), places, coverage);
+  summary.refused_tiles = terrain->refused();
+  summary.sea_cells = terrain->sea_cells();
+  summary.ignored_sea_cells = terrain->ignored_sea_cells();
+  return terrain;
+}
+
+std::optional<TimedEdits> edits_of(const VerifyOptions& options, std::optional<Terrain>& terrain) {
+  if (!options.edit_file) return std::nullopt;
+  std::vector<Edit> edits = read_edits(*options.edit_file);
+  if (!terrain) return std::nullopt;
+  return TimedEdits(*options.edit_file, std::move(edits), *terrain);
+}
+
 bool is_drawn(const Frame& frame) {
   return frame.mode != Mode::removed;
 }
@@ -152,12 +176,9 @@ VerifySummary run_verify(const VerifyOptions& options, std::ostream& progress) {
     places.push_back({header.eye.lat_deg, header.eye.lon_deg, header.range_m + beyond_range_m});
   }
   Geoid geoid = geoid_of(options, files, headers);
-  std::optional<Terrain> terrain;
-  if (!places.empty()) {
-    terrain.emplace(Terrain::load(options.terrain_folder, std::move(geoid), places));
-  }
   Totals totals;
-  if (terrain) totals.summary.refused_tiles = terrain->refused();
+  std::optional<Terrain> terrain = terrain_of(options, std::move(geoid), places, totals.summary);
+  std::optional<TimedEdits> edits = edits_of(options, terrain);
   for (const std::filesystem::path& file : files) {
     const Frame frame = read_frame(file);
     const std::size_t violations_before = totals.summary.violations();
@@ -169,6 +190,7 @@ VerifySummary run_verify(const VerifyOptions& options, std::ostream& progress) {
       totals.note("frame " + frame.name + ": " + fault);
     }
     if (is_drawn(frame)) {
+      if (edits) edits->advance_to(frame.time_s);
       has_bound = frame.bound_px && *frame.bound_px > 0 && std::isfinite(*frame.bound_px);
       if (has_bound) judge_frame(frame, *terrain, options, totals);
     } else {
@@ -186,6 +208,10 @@ void print_summary(const VerifySummary& summary, std::ostream& out) {
   for (const std::string& line : summary.refused_tiles)
     out << "counts as missing: " << line << '\n';
   for (const std::string& line : summary.details) out << line << '\n';
+  if (summary.sea_cells + summary.ignored_sea_cells > 0) {
+    out << "cells stated to be sea " << summary.sea_cells << " (and " << summary.ignored_sea_cells
+        << " that have a tile file)\n";
+  }
   out << "frames " << summary.frames << " (removed " << summary.removed_frames << ")\n"
       << "pixels checked " << summary.pixels << '\n'
       << "violations " << summary.violations() << " (soundness " << summary.soundness_violations

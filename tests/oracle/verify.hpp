@@ -17,7 +17,9 @@ struct VerifyOptions {
   std::filesystem::path terrain_folder;
   /// A geoid file or `none`. Without it only frames that say `none` can be judged.
   std::optional<std::string> geoid;
-  int pixels_per_frame = 5000;  ///< > 0; half of them at depth jumps
+  std::optional<std::filesystem::path> coverage_file;  ///< cells that are sea without a tile file
+  std::optional<std::filesystem::path> edit_file;      ///< terrain that changes at the frames' time
+  int pixels_per_frame = 5000;                         ///< > 0; half of them at depth jumps
   std::uint64_t seed = 1;
   int threads = 2;  ///< > 0; the result does not depend on it
 };
@@ -39,6 +41,8 @@ struct VerifySummary {
   double error_max_of_bound = 0;     ///< largest error divided by its frame's bound
   std::vector<std::string> details;  ///< the first violations and undecided pixels, one line each
 
+  int sea_cells = 0;                       ///< of the coverage list
+  int ignored_sea_cells = 0;               ///< of the coverage list, because of a tile file
   std::vector<std::string> refused_tiles;  ///< tiles that count as missing: file and fault
 
   [[nodiscard]] std::size_t violations() const {

@@ -1,0 +1,87 @@
+#include "tests/oracle/coverage.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tests/oracle/statements.hpp"
+
+namespace ridgeline::oracle {
+namespace {
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Degrees of a sign letter and digits, as in `n46`; nothing where it is not that.
+std::optional<int> degrees(std::string_view text, char positive, char negative) {
+  int value = 0;
+  if (text[0] != positive && text[0] != negative) return std::nullopt;
+  for (const char c : text.substr(1)) {
+    if (c < '0' || c > '9') return std::nullopt;
+    value = 10 * value + (c - '0');
+  }
+  return text[0] == negative ? -value : value;
+}
+
+std::optional<DegreeCell> cell_of(const std::string& word) {
+  if (word.size() != 7) return std::nullopt;
+  const std::string_view text = word;
+  const std::optional<int> south = degrees(text.substr(0, 3), 'n', 's');
+  const std::optional<int> west = degrees(text.substr(3), 'e', 'w');
+  if (!south || !west || *south < -90 || *south > 89 || *west < -180 || *west > 179) {
+    return std::nullopt;
+  }
+  return DegreeCell{*south, *west};
+}
+
+}  // namespace
+
+std::vector<DegreeCell> read_coverage(const std::filesystem::path& file) {
+  std::vector<DegreeCell> cells;
+  for_each_statement(file, [&](const Statement& statement) {
+    if (lower(statement.words[0]) != "sea") {
+      wrong_statement(file, statement.line, "does not begin with 'sea'");
+    }
+    if (statement.words.size() != 2) {
+      wrong_statement(file, statement.line, "'sea' takes one cell, such as N46E008");
+    }
+    const std::optional<DegreeCell> cell = cell_of(lower(statement.words[1]));
+    if (!cell) {
+      wrong_statement(file, statement.line,
+                      "names no cell: N46E008 or alike, S90 to N89, W180 to E179");
+    }
+    cells.push_back(*cell);
+  });
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+Tile sea_tile(const DegreeCell& cell) {
+  Tile tile;
+  tile.name = "sea";
+  tile.south_deg = cell.south_deg;
+  tile.west_deg = cell.west_deg;
+  tile.lat_step_deg = tile.lon_step_deg = 1;
+  tile.rows = tile.columns = 2;
+  tile.posts.assign(4, 0.0F);
+  tile.is_sea = true;
+  return tile;
+}
+
+bool reaches_into(const Grid& grid, const DegreeCell& cell) {
+  const double lat_slack = same_post_steps * grid.lat_step_deg;
+  const double lon_slack = same_post_steps * grid.lon_step_deg;
+  const double west = west_on_turn(grid, cell.west_deg + 0.5);
+  const double east = west + grid.east_deg() - grid.west_deg;
+  return grid.south_deg < cell.south_deg + 1 - lat_slack &&
+         grid.north_deg() > cell.south_deg + lat_slack && west < cell.west_deg + 1 - lon_slack &&
+         east > cell.west_deg + lon_slack;
+}
+
+}  // namespace ridgeline::oracle
