@@ -38,7 +38,8 @@ class BlockWorker final : public BlockPort {
   BlockWorker(const BlockWorker&) = delete;
   BlockWorker& operator=(const BlockWorker&) = delete;
 
-  /// Every edit the run will know; an order says how many of them count. Call before the first order.
+  /// Every edit the run will know; an order says how many of them count. Call before the first
+  /// order.
   void know_edits(std::span<const TerrainEdit> edits);
 
   [[nodiscard]] int room() const override;

@@ -11,17 +11,19 @@ namespace {
 
 constexpr int grid_attempts = 8;      ///< to fit the grid into its capacity
 constexpr double coarser = 1.5;       ///< wider spacing for the next attempt
-constexpr double bound_growth = 1.5;  ///< step by which a bound that cannot be met is raised
+constexpr double bound_growth = 1.1;  ///< step by which a bound that cannot be met is raised
 
-/// The smallest bound not below the wanted one that this pose and this terrain allow.
+/// The smallest bound not below the wanted one that this pose and this terrain allow; where
+/// completeness is what does not allow it, the smallest of a few steps.
 Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& camera,
                                   const GroundMap& map, const LevelError& levels,
                                   const HeightRounding& rounding) {
-  for (double wanted = settings.error_px; wanted <= limits::max_error_px; wanted *= bound_growth) {
-    auto budget = error_budget(camera, map, wanted, levels.angle_px, rounding);
-    if (!budget) continue;
-    const double angle = levels.angle_rad > 0 ? levels.angle_rad + budget.value().geometry_rad : 0.0;
-    if (stays_complete(camera, wanted, angle, levels.steepness)) return budget;
+  ErrorBudget budget = error_budget(camera, map, levels.angle_px, rounding);
+  double bound_px = std::max(settings.error_px, budget.smallest_px());
+  for (; bound_px <= limits::max_error_px; bound_px *= bound_growth) {
+    if (!stays_complete(camera, bound_px, levels, budget.geometry_rad)) continue;
+    budget.epsilon_px = bound_px;
+    return budget;
   }
   return Fault::no_error_bound;
 }
@@ -73,7 +75,8 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   report.window = terrain.summary();
   report.range_m = terrain.covered_range_m(input.eye, settings.range_m);
   if (report.range_m < limits::min_range_m) {
-    return removed(report, report.window.complete ? Reason::terrain_missing : Reason::terrain_loading);
+    return removed(report,
+                   report.window.complete ? Reason::terrain_missing : Reason::terrain_loading);
   }
   if (report.window.known_posts == 0) return removed(report, Reason::terrain_missing);
   const Clearance clearance = terrain.clearance(input.eye);
@@ -87,9 +90,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
 
   // Ground map and error budget.
   const auto map = ground_map(report.local, report.range_m);
-  const HeightRounding rounding{std::max(std::abs(report.window.highest_m),
-                                         std::abs(report.window.lowest_m)),
-                                clearance.distance_m};
+  const HeightRounding rounding{
+      std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
+      clearance.distance_m};
   const auto budget = map ? honest_budget(settings, report.camera, map.value(), levels, rounding)
                           : Result<ErrorBudget>(map.fault());
   if (!budget) return removed(report, Reason::no_bound);

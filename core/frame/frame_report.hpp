@@ -2,11 +2,11 @@
 #include <array>
 #include <cstdint>
 
+#include "core/frame/terrain_keeper.hpp"
 #include "core/geo/camera.hpp"
 #include "core/geo/local_frame.hpp"
 #include "core/monitor/availability.hpp"
 #include "core/render/frame_blocks.hpp"
-#include "core/frame/terrain_keeper.hpp"
 #include "core/render/renderer.hpp"
 
 namespace ridgeline {

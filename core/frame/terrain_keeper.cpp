@@ -15,8 +15,8 @@ constexpr double least_clearance_m = 0.05;
 constexpr int window_margin_posts = 4;  ///< posts beyond the range that nodes may look at
 constexpr int clearance_cells = 8;
 constexpr double metres_per_degree = 110'574.0;  ///< of latitude at the equator, the smallest
-constexpr double latitude_slack_deg = 1.0;  ///< a window is sized for an eye this much farther north
-
+constexpr double latitude_slack_deg =
+    1.0;  ///< a window is sized for an eye this much farther north
 
 }  // namespace
 
@@ -42,8 +42,8 @@ LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double 
 TerrainKeeper::TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
                              std::span<HeldBlock> held, std::span<float> finest_posts)
     : port_(port), lattice_(lattice), levels_(sizes, held), finest_posts_(finest_posts) {
-  RL_ASSERT(finest_posts.size() >= static_cast<std::size_t>(sizes.columns()) *
-                                       static_cast<std::size_t>(sizes.rows()));
+  RL_ASSERT(finest_posts.size() >=
+            static_cast<std::size_t>(sizes.columns()) * static_cast<std::size_t>(sizes.rows()));
 }
 
 void TerrainKeeper::follow(const GeodeticPosition& eye, Renderer& renderer) {
@@ -79,7 +79,8 @@ void TerrainKeeper::put(const TerrainBlock& block, Renderer& renderer) {
   const BlockSlot slot = levels_.slot(block.id);
   renderer.upload_block(block, slot);
   if (block.id.level != 0) return;
-  const auto index = static_cast<std::size_t>(slot.row * levels_.sizes().column_blocks + slot.column);
+  const auto index =
+      static_cast<std::size_t>(slot.row * levels_.sizes().column_blocks + slot.column);
   std::copy(block.posts.begin(), block.posts.end(),
             finest_posts_.begin() + static_cast<std::ptrdiff_t>(index * block.posts.size()));
 }
@@ -90,9 +91,9 @@ void TerrainKeeper::order_missing() {
   if (!(target == focus_)) {
     focus_ = target;
     const int edge = 4 * block_posts << coarsest;
-    port_.focus(geo_box(lattice_, {target.west - edge, target.south - edge,
-                                   target.east - target.west + 2 * edge,
-                                   target.north - target.south + 2 * edge}));
+    port_.focus(geo_box(
+        lattice_, {target.west - edge, target.south - edge, target.east - target.west + 2 * edge,
+                   target.north - target.south + 2 * edge}));
   }
   std::array<BlockId, limits::blocks_in_flight> wanted;
   const int room = std::min(port_.room(), limits::blocks_in_flight);
@@ -104,8 +105,7 @@ void TerrainKeeper::edit(std::span<const PostGrid> regions, Renderer& renderer) 
   edits_ += static_cast<int>(regions.size());
   for (const PostGrid& region : regions) {
     const double middle = 0.5 * (region.west_deg + region.east_deg());
-    const double shift =
-        lattice_.column_near(middle, eye_column_) - lattice_.column_of(middle);
+    const double shift = lattice_.column_near(middle, eye_column_) - lattice_.column_of(middle);
     // A tile coarser than the lattice carries a changed post to its next posts.
     const double west = std::floor(lattice_.column_of(region.west_deg) + shift -
                                    region.longitude_step_deg / lattice_.longitude_step_deg);

@@ -25,9 +25,9 @@ struct Clearance {
   double distance_m = 0;  ///< lower bound on the distance to the known surface, at least 0.05 m
 };
 
-/// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them into
-/// the renderer. Never waits for the disk unless its port does. Memory is the caller's, given once at
-/// boot.
+/// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them
+/// into the renderer. Never waits for the disk unless its port does. Memory is the caller's, given
+/// once at boot.
 class TerrainKeeper {
  public:
   /// Shape: held.size() >= sizes.levels * sizes.blocks(), finest_posts.size() >= sizes.columns() *
@@ -72,8 +72,8 @@ class TerrainKeeper {
 /// The smallest box that holds every ground point within `range_m` of the eye (plus 1 %).
 GeoBox range_box(double latitude_deg, double longitude_deg, double range_m);
 
-/// How large a window must be that covers the range round an eye near a latitude, within a budget of
-/// GPU bytes.
+/// How large a window must be that covers the range round an eye near a latitude, within a budget
+/// of GPU bytes.
 LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double range_m,
                         double gpu_bytes);
 

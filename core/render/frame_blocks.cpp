@@ -61,20 +61,16 @@ void put_window(const TerrainView& view, shader::FrameBlock& b) {
 
 }  // namespace
 
-Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
-                                 double level_px, const HeightRounding& rounding) {
+ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
+                         const HeightRounding& rounding) {
   const double edge = std::cos(camera.half_diagonal_rad(0.0));
   const double px_per_rad = std::max(camera.fx, camera.fy) / (edge * edge);
   ErrorBudget budget;
-  budget.epsilon_px = epsilon_px;
   budget.level_px = level_px;
   budget.geometry_rad =
       map.error_rad + float_angle_rad +
       float_height_ratio * rounding.largest_m / std::max(rounding.clearance_m, 0.05);
   budget.geometry_px = px_per_rad * budget.geometry_rad;
-  const bool fits = budget.geometry_px <= 0.5 * epsilon_px &&
-                    budget.geometry_px + level_px <= epsilon_px;
-  if (!fits) return Fault::error_bound_out_of_range;
   return budget;
 }
 
@@ -93,8 +89,7 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), 0.0f, high};
   const int largest_node = block_levels + view.sizes.levels - 1;
   b.heights = {f(view.highest_m), 0.0f, f(largest_node), f(largest_step_m(map, view.lattice))};
-  const double reach_m =
-      grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
+  const double reach_m = grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
   for (int l = 0; l < view.sizes.levels; ++l) b.level_reach[l].x = f(reach_m * (1 << l));
   const double sweep_end_m =
       std::min(reach_m * (1 << (view.sizes.levels - 1)), 1.003 * map.range_m);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 
 #include "core/geo/camera.hpp"
 #include "core/geo/ground_map.hpp"
@@ -21,6 +22,12 @@ struct ErrorBudget {
   double geometry_px = 0;   ///< what the drawn picture uses of it: ground map and float32 rounding
   double geometry_rad = 0;  ///< the same as an angle
   double level_px = 0;      ///< and what coarser levels of the window use of it
+
+  /// The smallest bound these terms allow: all of them together, and twice the geometry, so that
+  /// an exact picture is complete up to rounding.
+  [[nodiscard]] double smallest_px() const {
+    return std::max(geometry_px + level_px, 2.0 * geometry_px);
+  }
 };
 
 /// What rounding of heights in float32 depends on.
@@ -35,12 +42,10 @@ struct FrameBlocks {
   shader::GridBlock grid;
 };
 
-/// The bound a frame can promise, and what it is made of.
+/// What the error of a frame is made of; the promise itself is still to be chosen.
 /// Units:  px. `level_px`: what the levels of the window add. docs/error_bound.md, section 4.
-/// Errors: Fault::error_bound_out_of_range when the terms do not fit the wanted bound: all of them
-///         together within it, or, without a level term, geometry within half of it.
-Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
-                                 double level_px, const HeightRounding& rounding);
+ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
+                         const HeightRounding& rounding);
 
 /// Uniforms of one frame: double until here, float after.
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,

@@ -15,7 +15,7 @@ struct RenderSizes {
   int width_px = 0;
   int height_px = 0;
   LevelSizes window;  ///< of the terrain window
-  int planes = 0;  ///< capacity of the node texture
+  int planes = 0;     ///< capacity of the node texture
   int rows = 0;
 };
 

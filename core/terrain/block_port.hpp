@@ -21,8 +21,8 @@ class BlockPort {
   /// Orders one block. Domain: room() > 0.
   virtual void order(const BlockOrder& order) = 0;
   /// The next finished block, or null. A port for deterministic runs waits for every block ordered
-  /// so far, so that what a frame sees depends on frame numbers alone; one for live use never waits.
-  /// Owner: valid until the next call of take().
+  /// so far, so that what a frame sees depends on frame numbers alone; one for live use never
+  /// waits. Owner: valid until the next call of take().
   virtual const TerrainBlock* take() = 0;
   /// The box that blocks will be ordered from; tiles outside it may be let go.
   virtual void focus(const GeoBox& box) = 0;

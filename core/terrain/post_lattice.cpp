@@ -26,8 +26,8 @@ double distance_deg(const PostGrid& tile, const GeodeticPosition& place) {
   const double half = 0.5 * (tile.east_deg() - tile.west_deg);
   const double east =
       std::max(0.0, std::abs(std::remainder(place.longitude_deg - middle, 360.0)) - half);
-  const double north = std::max({0.0, tile.south_deg - place.latitude_deg,
-                                 place.latitude_deg - tile.north_deg()});
+  const double north =
+      std::max({0.0, tile.south_deg - place.latitude_deg, place.latitude_deg - tile.north_deg()});
   return std::hypot(east, north);
 }
 
@@ -76,8 +76,8 @@ AxisFit fit_rows(const PostLattice& lattice, const PostGrid& tile) {
 
 AxisFit fit_columns(const PostLattice& lattice, const PostGrid& tile, double near_column) {
   const double middle_deg = 0.5 * (tile.west_deg + tile.east_deg());
-  const double shift = lattice.longitude_deg(lattice.column_near(middle_deg, near_column)) -
-                       middle_deg;
+  const double shift =
+      lattice.longitude_deg(lattice.column_near(middle_deg, near_column)) - middle_deg;
   return fit_axis(lattice.origin_longitude_deg, lattice.longitude_step_deg,
                   tile.west_deg + 360.0 * std::round(shift / 360.0), tile.longitude_step_deg);
 }
@@ -95,8 +95,7 @@ PostLattice lattice_of(std::span<const PostGrid> tiles, const GeodeticPosition& 
         common_step(lattice.latitude_step_deg, finest_latitude, tile.latitude_step_deg);
     finer.longitude_step_deg =
         common_step(lattice.longitude_step_deg, finest_longitude, tile.longitude_step_deg);
-    const bool fits =
-        fit_rows(finer, tile).ratio > 0 && fit_columns(finer, tile, 0.0).ratio > 0;
+    const bool fits = fit_rows(finer, tile).ratio > 0 && fit_columns(finer, tile, 0.0).ratio > 0;
     if (fits) lattice = finer;
   }
   return lattice;

@@ -39,7 +39,8 @@ struct PostLattice {
   [[nodiscard]] double column_near(double longitude_deg, double near_column) const;
 };
 
-/// How one axis of a tile lies on the lattice: post k of the tile is lattice post first + k * ratio.
+/// How one axis of a tile lies on the lattice: post k of the tile is lattice post first + k *
+/// ratio.
 struct AxisFit {
   std::int32_t first = 0;
   int ratio = 0;  ///< 0: its posts do not lie on the lattice

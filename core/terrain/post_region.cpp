@@ -171,7 +171,8 @@ GeoBox geo_box(const PostLattice& lattice, const PostBox& box) {
 
 RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geoid_stride,
                         std::span<float> posts, std::span<float> scratch) {
-  RL_ASSERT(posts.size() == static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns));
+  RL_ASSERT(posts.size() ==
+            static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns));
   RL_ASSERT(scratch.size() >= 4 * static_cast<std::size_t>(box.columns) + 8);
   RegionFacts facts;
   std::fill(posts.begin(), posts.end(), nan_f);

@@ -29,13 +29,13 @@ struct PostBox {
 
 /// What reading a rectangle of posts met on the way.
 struct RegionFacts {
-  /// Largest amount by which the one height of a post differs from what a tile that shares the post,
-  /// or interpolates between posts there, says: where tiles of different steps disagree along an
-  /// edge the truth has two sides, and the region only one. m
+  /// Largest amount by which the one height of a post differs from what a tile that shares the
+  /// post, or interpolates between posts there, says: where tiles of different steps disagree along
+  /// an edge the truth has two sides, and the region only one. m
   double seam_m = 0;
-  bool seam_void = false;        ///< along such an edge one side is unknown and the other is not
-  int tiles = 0;                 ///< that lie in the box
-  int mismatched_tiles = 0;      ///< whose posts are not on the lattice: left unknown
+  bool seam_void = false;    ///< along such an edge one side is unknown and the other is not
+  int tiles = 0;             ///< that lie in the box
+  int mismatched_tiles = 0;  ///< whose posts are not on the lattice: left unknown
 };
 
 /// Reads the posts of a box, row-major from the south-west: height above the ellipsoid, NaN where

@@ -13,7 +13,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr int margin = 2;                     ///< cells of the level on every side of the block
+constexpr int margin = 2;                        ///< cells of the level on every side of the block
 constexpr int cells = block_posts + 2 * margin;  ///< a side of the region
 constexpr int corners = cells + 1;
 constexpr float nothing = -1e9F;
@@ -21,7 +21,7 @@ constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double equator_radius_m = 6'378'137.0;
 constexpr double polar_radius_m = 6'335'439.0;  ///< smallest radius of curvature northwards
 constexpr int coarse_geoid_stride = 8;
-constexpr float geoid_slack_m = 0.05F;  ///< of the coarse stride, at the kinks of the geoid grid
+constexpr double geoid_slack_m = 0.05;  ///< of the coarse stride, at the kinks of the geoid grid
 
 bool is_void(float post) {
   return post < void_threshold_m;
@@ -36,7 +36,10 @@ float top_of(float post) {
 class Builder {
  public:
   Builder(int level, std::span<const float> fine, bool with_voids)
-      : level_(level), step_(1 << level), side_(region_side(level)), fine_(fine),
+      : level_(level),
+        step_(1 << level),
+        side_(region_side(level)),
+        fine_(fine),
         with_voids_(with_voids) {
     for (int y = 0; y < corners; ++y) {
       for (int x = 0; x < corners; ++x) post(x, y) = at(x * step_, y * step_);
@@ -93,8 +96,7 @@ bool Builder::some_cell_known(int cx, int cy) const {
   if (!with_voids_) return true;
   for (int y = cy * step_; y < (cy + 1) * step_; ++y) {
     for (int x = cx * step_; x < (cx + 1) * step_; ++x) {
-      const float low =
-          std::min({at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)});
+      const float low = std::min({at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)});
       if (!is_void(low)) return true;
     }
   }
@@ -108,7 +110,8 @@ bool Builder::drawn_known(int cx, int cy) const {
 
 template <typename Use>
 void Builder::over_cell(int cx, int cy, const Use& use) const {
-  const float a = post(cx, cy), b = post(cx + 1, cy), c = post(cx, cy + 1), d = post(cx + 1, cy + 1);
+  const float a = post(cx, cy), b = post(cx + 1, cy), c = post(cx, cy + 1),
+              d = post(cx + 1, cy + 1);
   const float unit = 1.0F / static_cast<float>(step_);
   for (int j = 0; j <= step_; ++j) {
     const float v = static_cast<float>(j) * unit;
@@ -174,7 +177,6 @@ void Builder::settle() {
 }
 
 void Builder::measure(BlockFacts& facts) const {
-  float residual = 0;
   facts.lowest_m = -nothing;
   for (int cy = margin; cy < margin + block_posts; ++cy) {
     for (int cx = margin; cx < margin + block_posts; ++cx) {
@@ -185,11 +187,23 @@ void Builder::measure(BlockFacts& facts) const {
       const bool known = all_known(cx, cy), drawn = drawn_known(cx, cy);
       if (known != drawn || (!known && some_cell_known(cx, cy))) facts.mixed = true;
       if (!known) continue;
-      over_cell(cx, cy, [&](float gap, float, float) { residual = std::max(residual, std::abs(gap)); });
+      constexpr int side = block_posts / residual_parts;
+      const int part = (cy - margin) / side * residual_parts + (cx - margin) / side;
+      float& residual = facts.part_residual_m[static_cast<std::size_t>(part)];
+      over_cell(cx, cy,
+                [&](float gap, float, float) { residual = std::max(residual, std::abs(gap)); });
     }
   }
-  // Rounded up: the surface is computed once more, in float, by the shader.
-  if (residual > 0) facts.residual_m = residual * 1.0001F + 2e-3F;
+}
+
+/// Adds what the residual of every part has on top, and rounds up: the shader computes the surface
+/// once more, in float.
+void finish_residual(double more_m, BlockFacts& facts) {
+  for (float& residual : facts.part_residual_m) {
+    residual += static_cast<float>(more_m);
+    if (residual > 0) residual = residual * 1.0001F + 2e-3F;
+    facts.residual_m = std::max(facts.residual_m, residual);
+  }
 }
 
 float Builder::highest_of_cell(int cx, int cy) const {
@@ -269,9 +283,11 @@ void put_ball(const PostLattice& lattice, const BlockId& id, BlockFacts& facts) 
   const int span = block_posts << id.level;
   const auto place = [&](double x, double y, double height_m) {
     const double latitude = std::clamp(lattice.latitude_deg(id.row * span + y * span), -90.0, 90.0);
-    return ecef_from_geodetic({latitude, lattice.longitude_deg(id.column * span + x * span), height_m});
+    return ecef_from_geodetic(
+        {latitude, lattice.longitude_deg(id.column * span + x * span), height_m});
   };
-  const double low = std::min(static_cast<double>(facts.lowest_m), static_cast<double>(facts.highest_m));
+  const double low =
+      std::min(static_cast<double>(facts.lowest_m), static_cast<double>(facts.highest_m));
   const double high = static_cast<double>(facts.highest_m);
   facts.centre = place(0.5, 0.5, 0.5 * (low + high));
   double radius = 0;
@@ -325,8 +341,8 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   BlockFacts& facts = block.facts;
   facts.mismatched_tiles = region.mismatched_tiles;
   facts.mixed = facts.mixed || region.seam_void;
-  facts.residual_m += static_cast<float>(region.seam_m);
-  if (id.level > 0 && source.geoid.undulation_m != nullptr) facts.residual_m += geoid_slack_m;
+  const bool with_geoid = source.geoid.undulation_m != nullptr;
+  finish_residual(region.seam_m + (id.level > 0 && with_geoid ? geoid_slack_m : 0.0), facts);
   const double reach = std::max(std::abs(source.lattice.latitude_deg(box.row)),
                                 std::abs(source.lattice.latitude_deg(box.row + box.rows)));
   const double east_m = source.lattice.longitude_step_deg * rad_per_deg * equator_radius_m *

@@ -43,8 +43,8 @@ LevelSizes level_sizes(double half_columns, double half_rows, std::int64_t most_
   }
   if (sizes.levels > max_levels) {
     sizes.levels = max_levels;
-    const double shrink = std::sqrt(static_cast<double>(most_posts) /
-                                    static_cast<double>(sizes.posts()));
+    const double shrink =
+        std::sqrt(static_cast<double>(most_posts) / static_cast<double>(sizes.posts()));
     sizes.column_blocks = std::max(2, 2 * static_cast<int>(0.5 * shrink * sizes.column_blocks));
     sizes.row_blocks = std::max(2, 2 * static_cast<int>(0.5 * shrink * sizes.row_blocks));
     return sizes;

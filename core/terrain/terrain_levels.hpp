@@ -45,9 +45,9 @@ struct PostRect {
 struct TerrainView {
   PostLattice lattice;
   LevelSizes sizes;
-  double eye_column = 0, eye_row = 0;            ///< lattice posts
-  std::array<PostRect, max_levels> drawable{};   ///< of each level
-  double highest_m = 0;                          ///< of everything the window holds, floors too
+  double eye_column = 0, eye_row = 0;           ///< lattice posts
+  std::array<PostRect, max_levels> drawable{};  ///< of each level
+  double highest_m = 0;                         ///< of everything the window holds, floors too
 };
 
 /// One block's place in the window.

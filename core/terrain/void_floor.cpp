@@ -47,12 +47,11 @@ void read_square(const TerrainSource& source, int i, int j, Square& square) {
 
 /// The floor of a square without a known post.
 float bare_floor(const TerrainSource& source, int i, int j, double far_floor_m) {
-  const PostBox round{(i - bare_reach) * side, (j - bare_reach) * side,
-                      (2 * bare_reach + 1) * side, (2 * bare_reach + 1) * side};
+  const PostBox round{(i - bare_reach) * side, (j - bare_reach) * side, (2 * bare_reach + 1) * side,
+                      (2 * bare_reach + 1) * side};
   const GeoBox place = geo_box(source.lattice, round);
-  const bool any = std::any_of(source.tiles.begin(), source.tiles.end(), [&](const HeightTile& t) {
-    return overlaps(place, t.grid);
-  });
+  const bool any = std::any_of(source.tiles.begin(), source.tiles.end(),
+                               [&](const HeightTile& t) { return overlaps(place, t.grid); });
   float highest = none_known;
   Square square;
   for (int b = j - bare_reach; any && b <= j + bare_reach; ++b) {
@@ -73,8 +72,9 @@ struct Part {
 bool has_void(const PostBox& box, const Part& part, std::span<const float> region) {
   for (int r = part.row0; r < part.row1; ++r) {
     for (int c = part.column0; c < part.column1; ++c) {
-      const auto at = static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
-                      static_cast<std::size_t>(c - box.column);
+      const auto at =
+          static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
+          static_cast<std::size_t>(c - box.column);
       if (std::isnan(region[at])) return true;
     }
   }
@@ -90,8 +90,9 @@ void put_square(const TerrainSource& source, const PostBox& box, const Part& par
   const float slack = source.geoid.undulation_m == nullptr ? 0.0F : geoid_slack_m;
   for (int r = part.row0; r < part.row1; ++r) {
     for (int c = part.column0; c < part.column1; ++c) {
-      float& post = region[static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
-                           static_cast<std::size_t>(c - box.column)];
+      float& post =
+          region[static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
+                 static_cast<std::size_t>(c - box.column)];
       if (!std::isnan(post)) continue;
       const int y = r - j * side, x = c - i * side;
       float floor = none_known;

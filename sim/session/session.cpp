@@ -36,8 +36,7 @@ Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first
   }
   geoid_grid_ = geoid_.grid();
   if (Outcome opened = open_folder(first); !opened.ok()) return opened;
-  const GeoBox near =
-      range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m);
+  const GeoBox near = range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m);
   const double far_floor = far_floor_m(*folder_, near);
   if (!folder_->any_usable()) {
     return {folder_->refused().front().fault, folder_->refused().front().message};
@@ -120,8 +119,8 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   const double start_ms = now_ms();
   {
     const HeapSection after_boot;  // the frame path of the module; what follows is the desktop's
-    picture.report =
-        draw_frame(options_.settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
+    picture.report = draw_frame(options_.settings, input, *terrain_, worker_->refused_count(),
+                                tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;

@@ -21,8 +21,8 @@ struct SceneOptions {
   std::string geoid = "none";  ///< a PGM or GTX file, or `none`
   FrameSettings settings;
   /// When terrain counts as there: `settled` before every picture (single views), `in_step` so many
-  /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever the
-  /// disk is done.
+  /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever
+  /// the disk is done.
   enum class Arrival : std::uint8_t { settled, in_step, as_ready };
   Arrival arrival = Arrival::settled;
   int read_delay_us = 0;  ///< before every block; shows that slow disks change no bit
