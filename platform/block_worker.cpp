@@ -7,6 +7,11 @@
 #include "platform/heap_counter.hpp"
 
 namespace ridgeline {
+namespace {
+
+constexpr int forget_after_blocks = 256;  ///< then the pages of raw tiles are let go
+
+}  // namespace
 
 BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
     : folder_(folder), settings_(settings) {
@@ -96,6 +101,7 @@ void BlockWorker::build_into(const BlockOrder& order, TerrainBlock& block) {
 }
 
 void BlockWorker::run() {
+  int since_forgotten = 0;
   for (;;) {
     std::uint64_t slot = 0;
     BlockOrder order;
@@ -113,11 +119,19 @@ void BlockWorker::run() {
       const HeapSection after_boot;
       build_into(order, blocks_[slot]);
     }
+    bool idle = false;
     {
       const std::lock_guard lock(queue_mutex_);
       ++built_;
+      idle = built_ == ordered_;
     }
     done_.notify_one();
+    ++since_forgotten;
+    if (idle && since_forgotten >= forget_after_blocks) {
+      const std::lock_guard lock(folder_mutex_);
+      folder_.forget_pages();
+      since_forgotten = 0;
+    }
   }
 }
 
