@@ -150,6 +150,19 @@ double lowest_sample_m(const HeightTile& tile) {
   return lowest;
 }
 
+/// The lowest post of a tile; NaN when none is known.
+double lowest_post_of_m(const HeightTile& tile) {
+  double lowest = std::nan("");
+  std::vector<float> row(static_cast<std::size_t>(tile.grid.columns));
+  for (int r = 0; r < tile.grid.rows; ++r) {
+    read_posts(tile, r, 0, row);
+    for (const float post : row) {
+      if (!std::isnan(post)) lowest = std::fmin(lowest, static_cast<double>(post));
+    }
+  }
+  return lowest;
+}
+
 }  // namespace
 
 double far_floor_m(TerrainFolder& folder, const GeoBox& near) {
@@ -158,7 +171,12 @@ double far_floor_m(TerrainFolder& folder, const GeoBox& near) {
     folder.select(box);
     double lowest = std::nan("");
     for (const HeightTile& tile : folder.tiles()) lowest = std::fmin(lowest, lowest_sample_m(tile));
-    if (!std::isnan(lowest)) return lowest + over_lowest_m;
+    if (std::isnan(lowest)) {  // a few posts between voids still count
+      for (const HeightTile& tile : folder.tiles()) {
+        lowest = std::fmin(lowest, lowest_post_of_m(tile));
+      }
+    }
+    if (!std::isnan(lowest)) return std::min(lowest + over_lowest_m, limits::max_terrain_height_m);
   }
   return over_lowest_m;
 }
