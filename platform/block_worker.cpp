@@ -14,7 +14,7 @@ BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
   const auto side = static_cast<std::size_t>(region_side(settings.levels - 1));
   posts_.resize(side * side);
   rows_.resize(static_cast<std::size_t>(row_scratch(settings.levels - 1)));
-  orders_.resize(slots);
+  jobs_.resize(slots);
   blocks_.resize(slots);
   thread_ = std::thread([this] { run(); });
 }
@@ -41,7 +41,7 @@ void BlockWorker::order(const BlockOrder& order) {
   {
     const std::lock_guard lock(queue_mutex_);
     RL_ASSERT(ordered_ - taken_ < slots - 1);
-    orders_[ordered_ % slots] = order;
+    jobs_[ordered_ % slots] = {order, focus_};
     ++ordered_;
   }
   work_.notify_one();
@@ -59,24 +59,23 @@ const TerrainBlock* BlockWorker::take() {
 void BlockWorker::focus(const GeoBox& box) {
   const std::lock_guard lock(queue_mutex_);
   focus_ = box;
-  focus_changed_ = true;
 }
 
 const TerrainBlock* BlockWorker::build(const BlockOrder& order) {
-  build_into(order, at_once_);
+  Job job{order, {}};
+  {
+    const std::lock_guard lock(queue_mutex_);
+    job.focus = focus_;
+  }
+  build_into(job, at_once_);
   return &at_once_;
 }
 
-void BlockWorker::build_into(const BlockOrder& order, TerrainBlock& block) {
+void BlockWorker::build_into(const Job& job, TerrainBlock& block) {
   const std::lock_guard lock(folder_mutex_);
-  GeoBox focus;
-  bool changed = false;
-  {
-    const std::lock_guard queue_lock(queue_mutex_);
-    std::swap(changed, focus_changed_);
-    focus = focus_;
-  }
-  if (changed) folder_.select(focus);
+  if (!(job.focus == selected_)) folder_.select(job.focus);
+  selected_ = job.focus;
+  const BlockOrder& order = job.order;
   const TerrainSource source{settings_.lattice, folder_.tiles(),
                              edits_.first(static_cast<std::size_t>(order.edits)), settings_.geoid};
   build_block(source, order.id, settings_.far_floor_m, {posts_, rows_}, block);
@@ -85,20 +84,20 @@ void BlockWorker::build_into(const BlockOrder& order, TerrainBlock& block) {
 void BlockWorker::run() {
   for (;;) {
     std::uint64_t slot = 0;
-    BlockOrder order;
+    Job job;
     {
       std::unique_lock lock(queue_mutex_);
       work_.wait(lock, [this] { return stop_ || built_ < ordered_; });
       if (stop_) return;
       slot = built_ % slots;
-      order = orders_[slot];
+      job = jobs_[slot];
     }
     if (settings_.delay_us > 0) {
       std::this_thread::sleep_for(std::chrono::microseconds(settings_.delay_us));
     }
     {
       const HeapSection after_boot;
-      build_into(order, blocks_[slot]);
+      build_into(job, blocks_[slot]);
     }
     {
       const std::lock_guard lock(queue_mutex_);
@@ -129,7 +128,7 @@ std::size_t BlockWorker::mapped_bytes() const {
 
 std::size_t BlockWorker::buffer_bytes() const {
   return sizeof(float) * (posts_.size() + rows_.size()) + blocks_.size() * sizeof(TerrainBlock) +
-         orders_.size() * sizeof(BlockOrder);
+         jobs_.size() * sizeof(Job);
 }
 
 namespace {
