@@ -63,9 +63,7 @@ class Flight {
       block_->facts.highest_m = static_cast<float>(block_->id.column * 31 + block_->id.row);
       const bool held = levels.accept(*block_);
       EXPECT_EQ(held, wanted_here(key(block_->id)));
-      if (held) {
-        EXPECT_NE(levels.find(block_->id), nullptr);
-      }
+      EXPECT_EQ(levels.find(block_->id) != nullptr, held);
       waiting_.erase(key(block_->id));
     }
   }
