@@ -167,32 +167,48 @@ double TerrainKeeper::height_below_m(double column, double row) const {
          (static_cast<double>(nw) * (1 - fx) + static_cast<double>(ne) * fx) * fy;
 }
 
+/// Lower bound on the distance from the eye to the known ground of one cell, whatever is round it.
+double TerrainKeeper::cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
+                                      double post_x, double post_y) const {
+  const float highest = std::max(
+      {finest_post(c, r), finest_post(c + 1, r), finest_post(c, r + 1), finest_post(c + 1, r + 1)});
+  if (highest < void_threshold_m) return std::numeric_limits<double>::infinity();
+  const double x = post_x * std::max({0.0, c - eye_column_, eye_column_ - (c + 1)});
+  const double y = post_y * std::max({0.0, r - eye_row_, eye_row_ - (r + 1)});
+  const double over = std::max(0.0, eye.height_m - static_cast<double>(highest));
+  return std::sqrt(x * x + y * y + over * over);
+}
+
 Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
   const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
   const double post_y = lattice_.latitude_step_deg * metres_per_degree;
   const double post_x = lattice_.longitude_step_deg * metres_per_degree *
-                        std::max(std::cos(eye.latitude_deg * deg), 1e-3);
-  double steepest_x = 0, steepest_y = 0, highest = -1e9;
+                        std::max(std::cos(eye.latitude_deg * deg) - 1e-4, 1e-3);
+  constexpr auto limit = static_cast<double>(void_threshold_m);
+  double steepest_x = 0, steepest_y = 0, by_cells = std::numeric_limits<double>::infinity();
+  bool unbroken = true;
   for (std::int32_t r = row - clearance_cells; r <= row + clearance_cells; ++r) {
     for (std::int32_t c = column - clearance_cells; c <= column + clearance_cells; ++c) {
-      const auto limit = static_cast<double>(void_threshold_m);
+      by_cells = std::min(by_cells, cell_distance_m(eye, c, r, post_x, post_y));
       const auto h = static_cast<double>(finest_post(c, r));
       const auto right = static_cast<double>(finest_post(c + 1, r));
       const auto up = static_cast<double>(finest_post(c, r + 1));
-      if (h < limit) continue;
-      highest = std::max(highest, h);
-      if (right > limit) steepest_x = std::max(steepest_x, std::abs(right - h) / post_x);
-      if (up > limit) steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
+      unbroken = unbroken && std::min({h, right, up}) > limit;
+      steepest_x = std::max(steepest_x, std::abs(right - h) / post_x);
+      steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
     }
   }
-  // The surface is Lipschitz within the cells looked at; what lies beyond is at least that far off.
   const double below = height_below_m(eye_column_, eye_row_);
-  const double over = eye.height_m - (std::isnan(below) ? highest : below);
-  if (!std::isnan(below) && over <= 0.0) return {Clearance::Kind::below, least_clearance_m};
-  const double near = over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y);
+  const double over = eye.height_m - below;
+  if (over <= 0.0) return {Clearance::Kind::below, least_clearance_m};
+  // Without a void the surface is Lipschitz within the cells looked at; a void may hide a jump.
+  // What lies beyond them is at least that far off.
+  const double by_slope =
+      unbroken ? over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y) : 0.0;
   const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
-  return {Clearance::Kind::above, std::max(std::min(near, beyond), least_clearance_m)};
+  const double near = std::min(std::max(by_slope, by_cells), beyond);
+  return {Clearance::Kind::above, std::max(near, least_clearance_m)};
 }
 
 Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {

@@ -57,6 +57,8 @@ class TerrainKeeper {
   void order_missing();
   [[nodiscard]] float finest_post(std::int32_t column, std::int32_t row) const;
   [[nodiscard]] double height_below_m(double column, double row) const;
+  [[nodiscard]] double cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
+                                       double post_x, double post_y) const;
   [[nodiscard]] Clearance near_clearance(const GeodeticPosition& eye) const;
 
   BlockPort& port_;

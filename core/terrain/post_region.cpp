@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/assert.hpp"
+#include "core/terrain/shared_posts.hpp"
 
 namespace ridgeline {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
 constexpr int most_steps = 16;  ///< different steps among the tiles of one box
 constexpr double step_tolerance = 1e-6;
+/// A post that a tile has and does not know, as against NaN, which no tile has. Becomes NaN.
+constexpr float tile_void = -std::numeric_limits<float>::infinity();
 
 /// A tile laid over a box: which of its posts are wanted, and where they go.
 struct Overlay {
@@ -24,18 +27,20 @@ struct Overlay {
 /// How the posts of one tile come to posts that tiles before it have set.
 struct Merge {
   bool over_coarser = false;  ///< coarser tiles came before: inside its edge this one is the truth
-  double raised_m = 0;        ///< largest difference between two known heights of one post
-  bool half_known = false;    ///< a void of this tile met a known height on its edge
+  double apart_m = 0;         ///< largest difference between two known heights of one post
+  bool half_known = false;    ///< one of them was void and the other known
 
-  void put(float& post, float value, bool on_edge) {
-    if (over_coarser && !on_edge) {
-      post = value;
+  /// `inside`: not on the tile's own edge.
+  void put(float& post, float value, bool inside) {
+    if (over_coarser && inside) {
+      post = std::isnan(value) ? tile_void : value;
     } else if (std::isnan(post)) {
-      post = value;
-    } else if (std::isnan(value)) {
-      half_known = true;
+      post = std::isnan(value) ? tile_void : value;
+    } else if (std::isnan(value) || post == tile_void) {
+      half_known = half_known || std::isnan(value) != (post == tile_void);
+      post = std::isnan(value) ? post : value;
     } else if (value != post) {
-      raised_m = std::max(raised_m, static_cast<double>(std::abs(value - post)));
+      apart_m = std::max(apart_m, static_cast<double>(std::abs(value - post)));
       post = std::max(post, value);
     }
   }
@@ -68,13 +73,6 @@ bool lay(const PostLattice& lattice, const PostBox& box, Overlay& o) {
   return true;
 }
 
-/// The wanted posts of one row of a tile, edits applied.
-void read_row(const TerrainSource& source, const Overlay& o, int row, int first,
-              std::span<float> out) {
-  read_posts(o.tile, row, first, out);
-  if (!source.edits.empty()) apply_edits(source.edits, o.tile.grid, row, first, out);
-}
-
 /// Merges one lattice row; `lower` and `upper` hold tile posts from tile column `first` on.
 void merge_row(const Overlay& o, int first, std::span<const float> lower,
                std::span<const float> upper, float weight, bool edge_row, Merge& merge,
@@ -92,8 +90,8 @@ void merge_row(const Overlay& o, int first, std::span<const float> lower,
     if (part != 0) {
       value += static_cast<float>(part) / static_cast<float>(ratio) * (blended(k + 1) - value);
     }
-    const bool on_edge = edge_row || column == o.columns.first || column == o.last_column;
-    merge.put(row[static_cast<std::size_t>(column - o.column0)], value, on_edge);
+    const bool inside = !edge_row && column != o.columns.first && column != o.last_column;
+    merge.put(row[static_cast<std::size_t>(column - o.column0)], value, inside);
     if (++part == ratio) {
       part = 0;
       ++k;
@@ -114,10 +112,10 @@ void merge_tile(const TerrainSource& source, const PostBox& box, const Overlay& 
       std::swap(lower, upper);
       std::swap(lower_row, upper_row);
     }
-    if (k != lower_row) read_row(source, o, k, first, lower);
+    if (k != lower_row) read_shared_posts(source, o.tile, k, first, lower);
     lower_row = k;
     if (part != 0 && k + 1 != upper_row) {
-      read_row(source, o, k + 1, first, upper);
+      read_shared_posts(source, o.tile, k + 1, first, upper);
       upper_row = k + 1;
     }
     const bool edge_row = r == o.rows.first || r == o.last_row;
@@ -197,13 +195,14 @@ RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geo
       interpolated = interpolated || overlay.rows.ratio > 1 || overlay.columns.ratio > 1;
       Merge merge{over_coarser};
       merge_tile(source, box, overlay, merge, posts, scratch);
-      // On one lattice the taller height is the truth of both sides. Where a side is interpolated
-      // between coarser posts, the truth has two sides and this region only one.
+      // Posts that coincide agree by now. Where one side of an edge is interpolated between coarser
+      // posts, the truth has two sides and this region only one.
       if (!interpolated) continue;
-      facts.seam_m = std::max(facts.seam_m, merge.raised_m);
-      facts.seam_void = facts.seam_void || (over_coarser && merge.half_known);
+      facts.seam_m = std::max(facts.seam_m, merge.apart_m);
+      facts.seam_void = facts.seam_void || merge.half_known;
     }
   }
+  std::replace(posts.begin(), posts.end(), tile_void, nan_f);
   add_undulation(source, box, geoid_stride, posts);
   return facts;
 }

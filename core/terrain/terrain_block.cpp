@@ -21,6 +21,7 @@ constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double equator_radius_m = 6'378'137.0;
 constexpr double polar_radius_m = 6'335'439.0;  ///< smallest radius of curvature northwards
 constexpr int coarse_geoid_stride = 8;
+constexpr double widest_stride_deg = 25.0 / 3600.0;  ///< for which the slack below is enough
 constexpr double geoid_slack_m = 0.05;  ///< of the coarse stride, at the kinks of the geoid grid
 
 bool is_void(float post) {
@@ -337,7 +338,9 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const auto count = static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns);
   RL_ASSERT(scratch.posts.size() >= count);
   const std::span<float> fine = scratch.posts.first(count);
-  const int stride = id.level == 0 ? 1 : coarse_geoid_stride;
+  const bool fine_posts =
+      source.lattice.latitude_step_deg < widest_stride_deg / coarse_geoid_stride;
+  const int stride = id.level == 0 || !fine_posts ? 1 : coarse_geoid_stride;
   const RegionFacts region = read_region(source, box, stride, fine, scratch.rows);
   const bool with_voids =
       std::any_of(fine.begin(), fine.end(), [](float h) { return std::isnan(h); });

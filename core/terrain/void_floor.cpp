@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/terrain/shared_posts.hpp"
 #include "core/terrain/terrain_block.hpp"
 
 namespace ridgeline {
@@ -11,7 +12,10 @@ namespace {
 constexpr int side = block_posts;
 constexpr float none_known = -1e9F;
 constexpr float geoid_slack_m = 0.05F;  ///< floors are read with a coarser undulation
-constexpr int bare_reach = 2;           ///< squares on every side of one without a known post
+/// Cells of a tile, round a square without a known post: what any alignment of the contract's 3 x 3
+/// blocks of 64 x 64 cells can reach.
+constexpr int bare_reach_cells = 2 * side;
+constexpr float bare_geoid_slack_m = 5.0F;  ///< how much the undulation changes within that reach
 
 /// Square (i, j) of 64 x 64 lattice posts, with the highest known posts of its parts.
 struct Square {
@@ -45,23 +49,45 @@ void read_square(const TerrainSource& source, int i, int j, Square& square) {
   }
 }
 
+/// Highest known post of a tile within so many of its own cells of a square; none_known without
+/// one.
+float highest_near(const TerrainSource& source, const HeightTile& tile, int i, int j) {
+  const AxisFit rows = fit_rows(source.lattice, tile.grid);
+  const AxisFit columns = fit_columns(source.lattice, tile.grid, (i + 0.5) * side);
+  if (rows.ratio == 0 || columns.ratio == 0) return none_known;
+  const auto range = [](int square, const AxisFit& fit, int count) {
+    const int low = square * side - fit.first, high = low + side;
+    const int first = std::max(low / fit.ratio - bare_reach_cells, 0);
+    const int beyond = bare_reach_cells + (fit.ratio > 1 ? 1 : 0);
+    const int last = std::min((high - 1) / fit.ratio + beyond, count - 1);
+    return std::pair(first, last);
+  };
+  const auto [row0, row1] = range(j, rows, tile.grid.rows);
+  const auto [column0, column1] = range(i, columns, tile.grid.columns);
+  float highest = none_known;
+  std::array<float, 2 * bare_reach_cells + side + 3> posts{};
+  for (int row = row0; row <= row1 && column0 <= column1; ++row) {
+    const auto count = static_cast<std::size_t>(column1 - column0 + 1);
+    const std::span<float> wanted = std::span(posts).first(std::min(count, posts.size()));
+    read_shared_posts(source, tile, row, column0, wanted);
+    for (const float h : wanted) highest = std::isnan(h) ? highest : std::max(highest, h);
+  }
+  return highest;
+}
+
 /// The floor of a square without a known post.
 float bare_floor(const TerrainSource& source, int i, int j, double far_floor_m) {
-  const PostBox round{(i - bare_reach) * side, (j - bare_reach) * side, (2 * bare_reach + 1) * side,
-                      (2 * bare_reach + 1) * side};
-  const GeoBox place = geo_box(source.lattice, round);
-  const bool any = std::any_of(source.tiles.begin(), source.tiles.end(),
-                               [&](const HeightTile& t) { return overlaps(place, t.grid); });
   float highest = none_known;
-  Square square;
-  for (int b = j - bare_reach; any && b <= j + bare_reach; ++b) {
-    for (int a = i - bare_reach; a <= i + bare_reach; ++a) {
-      if (a == i && b == j) continue;
-      read_square(source, a, b, square);
-      highest = std::max(highest, square.highest);
-    }
+  for (const HeightTile& tile : source.tiles) {
+    highest = std::max(highest, highest_near(source, tile, i, j));
   }
-  return highest > none_known ? highest : static_cast<float>(far_floor_m);
+  if (!(highest > none_known)) return static_cast<float>(far_floor_m);
+  const GeoidLookup& geoid = source.geoid;
+  if (geoid.undulation_m == nullptr) return highest;
+  const double latitude = std::clamp(source.lattice.latitude_deg((j + 0.5) * side), -90.0, 90.0);
+  const double n =
+      geoid.undulation_m(geoid.context, latitude, source.lattice.longitude_deg((i + 0.5) * side));
+  return highest + static_cast<float>(n) + bare_geoid_slack_m;
 }
 
 /// The part of one square that lies in the box.
