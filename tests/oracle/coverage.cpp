@@ -69,7 +69,7 @@ Tile sea_tile(const DegreeCell& cell) {
   tile.west_deg = cell.west_deg;
   tile.lat_step_deg = tile.lon_step_deg = 1;
   tile.rows = tile.columns = 2;
-  tile.posts.assign(4, 0.0F);
+  for (int post = 0; post < 4; ++post) tile.posts.push_back(0);
   tile.is_sea = true;
   return tile;
 }

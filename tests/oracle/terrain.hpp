@@ -83,7 +83,8 @@ class Terrain {
   /// terrain. A tile that cannot be read is a missing tile: unknown ground, named by refused().
   /// A cell of `coverage` is sea unless a file reaches into it, or a refused file's name names it.
   /// Errors: InputError naming the folder, also where none of its tiles can be read.
-  /// Cost:   reads every file; memory 4 bytes a post of the tiles kept.
+  /// Cost:   reads every file; memory 2 bytes a post of the tiles kept, 4 where heights are not
+  ///         whole metres.
   [[nodiscard]] static Terrain load(const std::filesystem::path& folder, Geoid geoid,
                                     const std::vector<Neighbourhood>& places,
                                     const std::vector<DegreeCell>& coverage = {});
@@ -138,5 +139,8 @@ class Terrain {
   double highest_post_m_ = 0;
   double steepest_ = 0;
 };
+
+/// The lowest known post of a tile; +inf without one.
+[[nodiscard]] double lowest_known_m(const Tile& tile);
 
 }  // namespace ridgeline::oracle

@@ -73,16 +73,19 @@ void build_upper_levels(TerrainTile& entry) {
   }
 }
 
-/// The steepest rise per run from a post to its neighbours in the east and north.
-double steepest_at(const Tile& tile, int row, int column) {
-  const double north_m = tile.lat_step_deg * degree_rad * semi_minor_m;
+double metres_east(const Tile& tile, int row) {
   const double lat = (tile.south_deg + row * tile.lat_step_deg) * degree_rad;
-  const double east_m =
-      std::max(1e-3, tile.lon_step_deg * degree_rad * semi_minor_m * std::cos(lat));
+  return std::max(1e-3, tile.lon_step_deg * degree_rad * semi_minor_m * std::cos(lat));
+}
+
+/// The steepest rise per run from a post to its neighbours in the east and north.
+double steepest_at(const Tile& tile, int row, int column, double east_m) {
+  const double north_m = tile.lat_step_deg * degree_rad * semi_minor_m;
+  const auto post = static_cast<double>(tile.at(row, column));
   const auto slope = [&](int r, int c, double run_m) {
     if (r >= tile.rows || c >= tile.columns) return 0.0;
-    const double rise = static_cast<double>(tile.at(r, c) - tile.at(row, column));
-    return std::isnan(rise) ? 0.0 : std::abs(rise) / run_m;
+    const double rise = std::abs(static_cast<double>(tile.at(r, c)) - post);
+    return rise >= 0 ? rise / run_m : 0.0;  // NaN beside a void
   };
   return std::max(slope(row, column + 1, east_m), slope(row + 1, column, north_m));
 }
@@ -90,8 +93,9 @@ double steepest_at(const Tile& tile, int row, int column) {
 double steepest_of(const Tile& tile) {
   double steepest = 0;
   for (int row = 0; row < tile.rows; ++row) {
+    const double east_m = metres_east(tile, row);
     for (int column = 0; column < tile.columns; ++column) {
-      steepest = std::max(steepest, steepest_at(tile, row, column));
+      steepest = std::max(steepest, steepest_at(tile, row, column, east_m));
     }
   }
   return steepest;
@@ -249,8 +253,9 @@ void Terrain::summarise_changed(const std::vector<ReplacedPosts::Post>& posts) {
     const Tile& tile = tiles_[post.tile].tile;
     for (const int row : {post.row - 1, post.row}) {
       for (const int column : {post.column - 1, post.column}) {
-        if (row >= 0 && column >= 0)
-          steepest_ = std::max(steepest_, steepest_at(tile, row, column));
+        if (row >= 0 && column >= 0) {
+          steepest_ = std::max(steepest_, steepest_at(tile, row, column, metres_east(tile, row)));
+        }
         if (row < 0 || column < 0 || row > tile.rows - 2 || column > tile.columns - 2) continue;
         blocks.emplace(post.tile, row / block_cells, column / block_cells);
       }

@@ -106,23 +106,30 @@ std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file) {
 Tile read_hgt(const std::filesystem::path& file) {
   const std::optional<DegreeCell> corner = cell_in_name(file);
   if (!corner) throw InputError(file.string(), "name does not say which tile it is");
-  const Bytes bytes = file_bytes(file);
+  std::error_code fault;
+  const std::uintmax_t size = std::filesystem::file_size(file, fault);
+  std::ifstream in(file, std::ios::binary);
+  if (fault || !in) throw InputError(file.string(), "cannot be opened");
   Tile tile;
   tile.name = file.filename().string();
   for (const std::size_t side : {1201U, 3601U, 10801U}) {
-    if (bytes.size() == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
+    if (size == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
   }
-  if (tile.rows == 0)
+  if (tile.rows == 0) {
     throw InputError(file.string(), "size is none of 1201, 3601 and 10801 posts squared");
+  }
   tile.south_deg = corner->south_deg;
   tile.west_deg = corner->west_deg;
   tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
-  tile.posts.resize(bytes.size() / 2);
-  std::size_t from = 0;
+  tile.posts.resize(static_cast<std::size_t>(size / 2));
+  Bytes bytes(2 * static_cast<std::size_t>(tile.columns));
   for (int row = tile.rows - 1; row >= 0; --row) {
-    for (int column = 0; column < tile.columns; ++column, from += 2) {
-      const auto value = static_cast<std::int16_t>(big_endian_16(bytes, from));
-      tile.at(row, column) = value == -32768 ? void_post : static_cast<float>(value);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) throw InputError(file.string(), "cannot be read");
+    for (int column = 0; column < tile.columns; ++column) {
+      const unsigned raw = big_endian_16(bytes, 2 * static_cast<std::size_t>(column));
+      const auto value = static_cast<std::int16_t>(raw);
+      tile.set(row, column, value == -32768 ? void_post : static_cast<float>(value));
     }
   }
   return tile;
@@ -156,7 +163,7 @@ Tile read_dted(const std::filesystem::path& file) {
       const unsigned raw = big_endian_16(bytes, start + 8 + 2 * static_cast<std::size_t>(row));
       const int magnitude = static_cast<int>(raw & 0x7FFFU);
       const int value = (raw & 0x8000U) != 0 ? -magnitude : magnitude;
-      tile.at(row, column) = value == -32767 ? void_post : static_cast<float>(value);
+      tile.set(row, column, value == -32767 ? void_post : static_cast<float>(value));
     }
   }
   return tile;

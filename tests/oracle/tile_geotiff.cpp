@@ -52,27 +52,24 @@ void require_geographic(const std::string& file, GDALDatasetH dataset) {
 }
 
 void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
-  const auto count = static_cast<std::size_t>(tile.rows) * static_cast<std::size_t>(tile.columns);
-  std::vector<double> values(count);
-  if (GDALRasterIO(band, GF_Read, 0, 0, tile.columns, tile.rows, values.data(), tile.columns,
-                   tile.rows, GDT_Float64, 0, 0) != CE_None) {
-    throw InputError(file, "raster cannot be decoded");
-  }
   int has_no_data = 0;
   const double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset = GDALGetRasterOffset(band, nullptr);
   const bool is_int16 = GDALGetRasterDataType(band) == GDT_Int16;
-  tile.posts.resize(count);
-  for (int row = 0; row < tile.rows; ++row) {
+  std::vector<double> values(static_cast<std::size_t>(tile.columns));
+  tile.posts.resize(values.size() * static_cast<std::size_t>(tile.rows));
+  for (int row = tile.rows - 1; row >= 0; --row) {
+    if (GDALRasterIO(band, GF_Read, 0, tile.rows - 1 - row, tile.columns, 1, values.data(),
+                     tile.columns, 1, GDT_Float64, 0, 0) != CE_None) {
+      throw InputError(file, "raster cannot be decoded");
+    }
     for (int column = 0; column < tile.columns; ++column) {
-      const double value = values[static_cast<std::size_t>(tile.rows - 1 - row) *
-                                      static_cast<std::size_t>(tile.columns) +
-                                  static_cast<std::size_t>(column)];
+      const double value = values[static_cast<std::size_t>(column)];
       // The two customary voids of 16-bit terrain hold even where a file forgets to declare one.
       const bool is_void = (has_no_data != 0 && value == no_data) || !std::isfinite(value) ||
                            (is_int16 && value <= -32767);
-      tile.at(row, column) = is_void ? void_post : static_cast<float>(value * scale + offset);
+      tile.set(row, column, is_void ? void_post : static_cast<float>(value * scale + offset));
     }
   }
 }

@@ -61,7 +61,8 @@ TEST_F(Edits, are_read_in_order_of_time_then_line) {
                       "20 -90 -180 3 0.3333333333 1 1 fill void\n"));
   ASSERT_EQ(edits.size(), 3U);
   EXPECT_EQ(edits[0].time_s, 10.5);
-  EXPECT_EQ(edits[0].patch.posts, std::vector<float>(5000, -12.0F));
+  ASSERT_EQ(edits[0].patch.posts.size(), 5000U);
+  for (std::size_t i = 0; i < 5000; ++i) ASSERT_EQ(edits[0].patch.posts[i], -12);
   EXPECT_EQ(edits[1].line, 2);
   EXPECT_EQ(edits[1].patch.rows, 2);
   EXPECT_EQ(edits[1].patch.at(0, 2), 3);

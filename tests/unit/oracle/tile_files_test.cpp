@@ -76,6 +76,38 @@ TEST(TileFiles, hgt_has_its_place_in_its_name_and_runs_from_the_north) {
   EXPECT_FALSE(read_tile(folder.path() / "README.md"));
 }
 
+TEST(TileFiles, hgt_may_have_a_third_of_a_second_between_posts) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "N46E008.hgt";
+  write(file, std::string("\x01\x02\x80\x00", 4));  // 258 m and a void in the north-west
+  std::filesystem::resize_file(file, 2U * 10801U * 10801U);
+  const Tile tile = read_hgt(file);
+  EXPECT_EQ(tile.columns, 10801);
+  EXPECT_EQ(tile.lat_step_deg, 1.0 / 10800);
+  EXPECT_EQ(tile.at(10800, 0), 258);
+  EXPECT_TRUE(std::isnan(tile.at(10800, 1)));
+  EXPECT_EQ(tile.at(0, 0), 0);
+}
+
+TEST(Posts, keep_whole_metres_and_any_other_height_exactly) {
+  Posts posts;
+  for (const float height : {0.0F, -32767.0F, 32767.0F, void_post}) posts.push_back(height);
+  for (const float odd : {0.25F, -32768.0F, 40000.0F}) {
+    Posts changed = posts;
+    changed.set(0, odd);
+    EXPECT_EQ(changed[0], odd);
+    EXPECT_EQ(changed[1], -32767);
+    EXPECT_EQ(changed[2], 32767);
+    EXPECT_TRUE(std::isnan(changed[3]));
+    changed.set(3, 8);
+    changed.resize(5);
+    EXPECT_EQ(changed[3], 8);
+    EXPECT_TRUE(std::isnan(changed[4]));
+  }
+  EXPECT_EQ(posts[0], 0);
+  EXPECT_EQ(posts.size(), 4U);
+}
+
 TEST(TileFiles, dted_is_sign_magnitude_in_columns_from_the_south) {
   const scenes::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "any.dt1";
