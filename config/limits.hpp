@@ -20,9 +20,10 @@ inline constexpr int max_image_px = 4096;
 // --- terrain ---
 inline constexpr double max_terrain_height_m = 9'000.0;
 inline constexpr double min_terrain_height_m = -12'000.0;
-inline constexpr int window_alignment_posts = 256;  ///< 2^top_level
-inline constexpr int max_window_posts = 8'192;      ///< per side
-inline constexpr int top_level = 8;                 ///< coarsest node spans 2^8 cells
+inline constexpr double terrain_gpu_bytes = 96.0 * 1024 * 1024;  ///< most the window may take
+inline constexpr int blocks_in_flight = 64;  ///< ordered and not yet taken; most a frame uploads
+inline constexpr int max_edits = 64;
+inline constexpr int max_edited_posts = 65'536;
 
 // --- polar grid ---
 inline constexpr int max_planes = 2'048;

@@ -171,6 +171,12 @@ bool TerrainFolder::select(const GeoBox& box) {
   return true;
 }
 
+std::vector<PostGrid> TerrainFolder::grids() const {
+  std::vector<PostGrid> grids;
+  for (const Entry& entry : entries_) grids.push_back(entry.grid);
+  return grids;
+}
+
 void TerrainFolder::choose(Entry& entry) {
   if (entry.format == Format::extra) {
     choose_decoded(entry);

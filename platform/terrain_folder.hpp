@@ -46,6 +46,9 @@ class TerrainFolder {
   /// Owner: views this folder; valid until the next select().
   [[nodiscard]] std::span<const HeightTile> tiles() const { return tiles_; }
 
+  /// The post grids of all tiles found, in the same order, chosen or not.
+  [[nodiscard]] std::vector<PostGrid> grids() const;
+
   /// Every refused file so far, once each; grows at the end only.
   [[nodiscard]] std::span<const FileProblem> refused() const { return refused_; }
 

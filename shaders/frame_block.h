@@ -16,6 +16,8 @@ RL_CONST(frame_block_binding, 0);
 RL_CONST(grid_block_binding, 1);
 RL_CONST(style_block_binding, 2);
 RL_CONST(segment_count, 64);
+RL_CONST(most_levels, 6);    // of the terrain window
+RL_CONST(node_levels, 6);    // of the pyramid inside a block
 
 // Texture units.
 RL_CONST(posts_unit, 0);
@@ -38,17 +40,21 @@ RL_CONST(planes_buffer, 0);
 RL_CONST(slopes_buffer, 1);
 RL_CONST(counters_buffer, 2);
 
-// One frame: pose, window and ground map. Lengths in m; window coordinates in posts, relative to
-// the post south-west of the eye; heights relative to the window's base height.
+// One frame: pose, window and ground map. Lengths in m; window coordinates in lattice posts, relative
+// to the post south-west of the eye; heights over the ellipsoid.
 RL_BLOCK(FrameBlock, 0) {
   vec4 ray_dx;        // xyz: change of the ray per pixel to the right, ENU; w: image width
   vec4 ray_dy;        // xyz: per pixel downwards; w: image height
   vec4 ray_origin;    // xyz: ray of the centre of pixel (0, 0); w: display range
-  vec4 eye;           // xy: eye in window posts, 0..1; z + w: eye height over the base, high and low
-  vec4 earth;         // x: 1/M; y: 1/N; z: base height; w: eye height over the ellipsoid
-  vec4 heights;       // x: highest, y: lowest height over the base; z: largest node; w: largest step
+  vec4 eye;           // xy: eye in its cell, 0..1; z + w: eye height, high and low part
+  vec4 earth;         // x: 1/M; y: 1/N; z: unused; w: eye height, rounded
+  vec4 heights;       // x: highest of the window; y: unused; z: largest node; w: largest step
   vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; yw: swell at the range, 03 21
-  ivec4 window;       // xy: post south-west of the eye; zw: columns and rows of the window
+  ivec4 window;       // xy: low bits of the eye's post; z: levels; w: unused
+  vec4 level_size;    // xy: columns and rows of a level; zw: one over them
+  ivec4 level_eye[6];   // xy: where a level keeps the post south-west of the eye
+  ivec4 level_rect[6];  // cells a level can draw: west, south, east, north (ends excluded)
+  vec4 level_reach[6];  // x: ground distance up to which its nodes cover a wedge
   vec4 latitude[3];   // ground map in posts: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // 10 11 12 13 | 14 30 31 32 | 50 - - -
 };
@@ -69,7 +75,7 @@ RL_BLOCK(StyleBlock, 2) {
   vec4 post_step;    // xy: posts per metre east and north; z, w: roughness and height of sea, m
   vec4 line;         // x: as grid_step, contours; y: pixels per ray slope; z: width; w: 1/range
   vec4 ground_grid;  // xy: grid lines from the eye's post to the line south-west; zw: lines per post
-  vec4 grid_step;    // xy: (metres from line to line / rad per pixel) squared; zw: 1/window size
+  vec4 grid_step;    // xy: (metres from line to line / rad per pixel) squared; zw: unused
   vec4 geoid[2];     // undulation by E, N over range: 1 E N EE | EN NN - -
 };
 

@@ -71,12 +71,13 @@ Course course_of(Ray r) {
 }
 
 // Distance of the first known surface or, negative, of the first unknown floor; `sky` if none.
-float first_hit(Ray r, float start, int level) {
+// `size`: nodes of 2^size cells are looked at first.
+float first_hit(Ray r, float start, int size) {
   Course q = course_of(r);
   float range = ray_origin.w;
   float ceiling = over_eye(heights.x) + 1.0;
   float bend = 0.5 * r.along * r.along * r.inverse_radius;
-  int top_level = int(heights.z);
+  int top_size = int(heights.z);
   float t = start;
   if (r.up < 0.0) t = max(t, ceiling / r.up);  // over the highest post until here
   ivec2 parent = ivec2(-1000000);
@@ -90,25 +91,35 @@ float first_hit(Ray r, float start, int level) {
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
     vec2 whole = cell_ahead(at, rate);
     ivec2 cell = ivec2(whole);
-    // Up a level when the step has left the parent node, so that long clear ways take few steps.
-    ivec2 up = (window.xy + cell) >> (level + 1);
-    if (parent.x > -1000000 && up != parent && level < top_level) level += 1;
+    int level = level_of(cell, cell + 1, 0);
+    // Up a size when the step has left the parent node, so that long clear ways take few steps.
+    ivec2 up = (window.xy + cell) >> (size + 1);
+    if (parent.x > -1000000 && up != parent && size < top_size) size += 1;
     parent = ivec2(-1000000);
-    float leave = min(exit_distance(cell, level, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * t);
-    if (level > 0) {
+    size = clamp(size, level, level + node_levels);
+    float leave = min(exit_distance(cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * t);
+    if (size > level) {
+      ivec2 low = level_low(cell, size);
+      int holder = level_of(low, low + (1 << size), level);
+      if (size == holder) {  // two borders in one node: only while the window fills
+        size -= 1;
+        continue;
+      }
       // The height of a ray is convex in t: it stays above its tangent.
       float lowest = height + min(climb, 0.0) * leave;
-      float k = node_highest(cell, level);
+      float k = node_highest(cell, size, holder);
       if (lowest > k + 1.0e-6 * (abs(k) + abs(height)) + 1.0e-5) {
-        parent = (window.xy + cell) >> (level + 1);
+        parent = (window.xy + cell) >> (size + 1);
         t += leave;
       } else {
-        level -= 1;
+        size -= 1;
       }
       continue;
     }
-    Cell c = cell_at(cell);
-    vec3 gap = gap_along(c, at - whole, rate, height, climb, bend);
+    Cell c = cell_at(cell, level);
+    float unit = 1.0 / float(1 << level);
+    vec2 inside = (at - vec2(level_low(cell, level))) * unit;
+    vec3 gap = gap_along(c, inside, rate * unit, height, climb, bend);
     float hit = 0.0;
     if (gap.x > 0.0) {
       float disc = gap.y * gap.y - 4.0 * gap.z * gap.x;
@@ -120,7 +131,7 @@ float first_hit(Ray r, float start, int level) {
       // Never -0, which is no sign at all: the eye may stand inside an unknown floor.
       return t > range ? sky : (c.unknown ? -max(t, 1.0e-3) : t);
     }
-    parent = (window.xy + cell) >> 1;
+    parent = (window.xy + cell) >> (size + 1);
     t += leave;
   }
   return unresolved;

@@ -35,11 +35,6 @@ float geoid_m(vec2 at) {
          at.y * (geoid[0].z + geoid[1].y * at.y);
 }
 
-// Four posts, the south-west one named: x north-west, y north-east, z south-east, w south-west.
-vec4 four_posts(ivec2 post) {
-  return textureGather(posts_texture, (vec2(post) + 1.0) * grid_step.zw);
-}
-
 struct Relief {
   vec2 gradient;    // m per post, continuous over cell borders: near facets do not look like tiles
   float roughness;  // m between the highest and the lowest post of the cell
@@ -52,13 +47,17 @@ vec2 blended(vec2 rise, vec2 near, vec2 outer, float side, float share) {
 }
 
 // A rise belongs to the middle of its edge and is bilinear from there to the next ones.
-Relief relief_at(ivec2 cell, vec2 f) {
-  ivec2 p = clamp(window.xy + cell, ivec2(1), window.zw - 3);
+Relief relief_at(vec2 at) {
+  ivec2 cell = ivec2(floor(at));
+  int level = level_of(cell, cell + 1, 0);
+  float unit = 1.0 / float(1 << level);
+  vec2 f = (at - vec2(level_low(cell, level))) * unit;
+  ivec2 p = level_texel(cell, level);
   bvec2 upper = greaterThan(f, vec2(0.5));
   ivec2 side = ivec2(upper) * 2 - 1;
-  vec4 here = four_posts(p);
-  vec4 beside = four_posts(p + ivec2(side.x, 0));
-  vec4 above = four_posts(p + ivec2(0, side.y));
+  vec4 here = four_posts(p, level);
+  vec4 beside = four_posts(p + ivec2(side.x, 0), level);
+  vec4 above = four_posts(p + ivec2(0, side.y), level);
   vec2 west = here.wx, east = here.zy, south = here.wz, north = here.xy;
   vec2 share = abs(f - 0.5);
   vec2 x = blended(east - west, upper.x ? east : west, upper.x ? beside.zy : beside.wx,
@@ -66,7 +65,7 @@ Relief relief_at(ivec2 cell, vec2 f) {
   vec2 y = blended(north - south, upper.y ? north : south, upper.y ? above.xy : above.wz,
                    float(side.y), share.y);
   Relief r;
-  r.gradient = vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x));
+  r.gradient = vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x)) * unit;
   vec2 low = min(south, north), high = max(south, north);
   r.roughness = max(high.x, high.y) - min(low.x, low.y);
   if (min(low.x, low.y) < void_threshold) r.gradient = vec2(0.0);  // rounding next to a void
@@ -86,8 +85,7 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   float u = p.g * tolerance.z;
   vec2 place = u * r.azimuth;
   vec2 at = ground_posts(place.x, place.y);
-  vec2 cell = floor(at);
-  Relief relief = relief_at(ivec2(cell), at - cell);
+  Relief relief = relief_at(at);
   float height = p.height + earth.w - geoid_m(place);
   vec2 slope = relief.gradient * post_step.xy;
   vec3 normal = vec3(-slope, 1.0);  // not of unit length

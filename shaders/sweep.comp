@@ -19,6 +19,18 @@ void store(int row, int plane, float value) {
   imageStore(nodes_image, ivec2(plane, row), vec4(value));
 }
 
+// As level_of, two posts inside the drawable part: the whole wedge is drawn by that level or a finer
+// one, so its nodes bound what the neighbouring rays see as well.
+int wedge_level_of(ivec2 low, ivec2 high, int from) {
+  int level = from;
+  for (; level < window.z - 1; ++level) {
+    ivec4 r = level_rect[level];
+    int inside = 2 << level;
+    if (all(greaterThanEqual(low, r.xy + inside)) && all(lessThanEqual(high, r.zw - inside))) break;
+  }
+  return level;
+}
+
 void main() {
   int plane = int(gl_GlobalInvocationID.x);
   if (plane >= grid.x) return;
@@ -30,24 +42,36 @@ void main() {
   Track track = track_of(direction.x, direction.y);
   float inverse_radius = direction.z;
   float g_end = tolerance.x;  // the end of the range, or where wedges grow wider than the overlap
-  int top_level = int(heights.z);
+  int top_size = int(heights.z);
 
   float g = 0.0;
-  int level = top_level;
+  int size = top_size;
   float slope = slope_list[row];
   int steps = 0;
   while (g < g_end && steps < step_limit) {
     ++steps;
+    // Wedges widen: farther out only coarser levels have nodes whose overlap covers them.
+    int level = 0;
+    while (level < window.z - 1 && g >= level_reach[level].x) ++level;
+    float reach = level_reach[level].x;
     float u = g * tolerance.z;
     vec2 at = track_posts(track, u);
     vec2 rate = track_rate(track, u);
     ivec2 cell = ivec2(cell_ahead(at, rate));
-    float leave = min(exit_distance(cell, level, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
-    float g1 = g + leave;
+    level = wedge_level_of(cell, cell + 1, level);
+    size = clamp(size, level + 1, level + node_levels);
+    ivec2 low = level_low(cell, size);
+    int holder = wedge_level_of(low, low + (1 << size), level);
+    if (size == holder) {  // two borders in one node: only while the window fills
+      size -= 1;
+      continue;
+    }
+    float leave = min(exit_distance(cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
+    float g1 = g < reach ? min(g + leave, reach) : g + leave;
     float theta2 = g * g * inverse_radius * inverse_radius;
     float drop = 0.5 * g * g * inverse_radius * (1.0 - theta2 * (1.0 / 12.0)) * (1.0 - 3.0e-5);
     float near = g * (1.0 - theta2 * (1.0 / 6.0));
-    float k = node_highest(cell, level);
+    float k = node_highest(cell, size, holder);
     float c = 1.0 + (k + earth.w) * inverse_radius;
     float slack = 1.0e-6 * abs(k) + 1.0e-6 * g1 + 1.0e-5 +
                   (abs(tolerance.y) + abs(tolerance.w)) * u * u * u * 1.2;  // swell
@@ -55,9 +79,9 @@ void main() {
     float over = k + slack - c * (drop + slope * (slope < 0.0 ? g1 : near));
     if (over < 0.0) {
       g = g1;
-      level = min(level + 1, top_level);
-    } else if (level > 1) {
-      level -= 1;
+      size = min(size + 1, top_size);
+    } else if (size > level + 1) {
+      size -= 1;
     } else {
       while (over >= 0.0) {
         store(row, plane, g);

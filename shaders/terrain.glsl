@@ -1,7 +1,7 @@
 // Posts, cells, nodes and the ground map: shared by every pass that looks at terrain.
 
-layout(binding = posts_unit) uniform highp sampler2D posts_texture;
-layout(binding = highest_unit) uniform highp sampler2D highest_texture;
+layout(binding = posts_unit) uniform highp sampler2DArray posts_texture;
+layout(binding = highest_unit) uniform highp sampler2DArray highest_texture;
 
 const float void_threshold = -50000.0;
 const float void_offset = 100000.0;
@@ -49,8 +49,34 @@ vec2 track_rate(Track t, float u) {
   return tolerance.z * (t.c1 + u * (2.0 * t.c2 + u * (3.0 * t.c3 + u * (4.0 * t.c4 + u * 5.0 * t.c5))));
 }
 
-// Height over the eye. Two parts, because a low eye over high ground needs the last centimetre.
+// Height over the eye. Two parts: a low eye needs the last centimetre.
 float over_eye(float height) { return (height - eye.z) - eye.w; }
+
+// The finest level, from `from` on, whose drawable part holds the cells low..high (excluded).
+int level_of(ivec2 low, ivec2 high, int from) {
+  int level = from;
+  for (; level < window.z - 1; ++level) {
+    ivec4 r = level_rect[level];
+    if (all(greaterThanEqual(low, r.xy)) && all(lessThanEqual(high, r.zw))) break;
+  }
+  return level;
+}
+
+// South-west lattice post of the cell of `level` that holds `cell`, relative to the eye's.
+ivec2 level_low(ivec2 cell, int level) {
+  return (((window.xy + cell) >> level) << level) - window.xy;
+}
+
+// Where a level keeps the south-west post of that cell; not yet wrapped into its texture.
+ivec2 level_texel(ivec2 cell, int level) {
+  return level_eye[level].xy + ((window.xy + cell) >> level) - (window.xy >> level);
+}
+
+// The four posts round the point where they meet, half a texel from any other choice. x north-west,
+// y north-east, z south-east, w south-west. The texture repeats: levels are toroidal.
+vec4 four_posts(ivec2 texel, int level) {
+  return textureGather(posts_texture, vec3((vec2(texel) + 1.0) * level_size.zw, float(level)));
+}
 
 // One cell of the bilinear surface: height over the eye = h00 + dx fx + dy fy + dxy fx fy.
 struct Cell {
@@ -58,10 +84,8 @@ struct Cell {
   bool unknown;  // then flat: the floor up to which it is drawn as unknown
 };
 
-Cell cell_at(ivec2 cell) {
-  ivec2 p = clamp(window.xy + cell, ivec2(0), window.zw - 2);
-  // One gather for the four posts: the point where they meet is half a texel from any other choice.
-  vec4 corners = textureGather(posts_texture, (vec2(p) + 1.0) / vec2(window.zw));
+Cell cell_at(ivec2 cell, int level) {
+  vec4 corners = four_posts(level_texel(cell, level), level);
   float a = corners.w, b = corners.z, c = corners.x, d = corners.y;
   Cell r;
   float low = min(min(a, b), min(c, d));
@@ -86,16 +110,22 @@ Cell cell_at(ivec2 cell) {
   return r;
 }
 
-// South-west texel of a pyramid level in the one texture that holds them all: level 1 stands at the
+// South-west texel of a pyramid level in the one layer that holds them all: level 1 stands at the
 // left, the others above each other to its right.
 ivec2 pyramid_corner(ivec2 posts, int level) {
   return level < 2 ? ivec2(0) : ivec2(posts.x >> 1, (posts.y >> 1) - (posts.y >> (level - 1)));
 }
 
-// Highest height over the eye in the node of `level` that holds `cell`, its overlap included.
-float node_highest(ivec2 cell, int level) {
-  ivec2 node = clamp((window.xy + cell) >> level, ivec2(0), (window.zw >> level) - 1);
-  return over_eye(texelFetch(highest_texture, node + pyramid_corner(window.zw, level), 0).r);
+// Highest height over the eye in the node of 2^size cells that holds `cell`, by a level of the
+// window (0 < size - level <= node_levels); the node's overlap included.
+float node_highest(ivec2 cell, int size, int level) {
+  int up = size - level;
+  ivec2 posts = ivec2(level_size.xy);
+  ivec2 count = posts >> up;
+  ivec2 node = (level_eye[level].xy >> up) + ((window.xy + cell) >> size) - (window.xy >> size);
+  node += ivec2(lessThan(node, ivec2(0))) * count;
+  node -= ivec2(greaterThanEqual(node, count)) * count;
+  return over_eye(texelFetch(highest_texture, ivec3(node + pyramid_corner(posts, up), level), 0).r);
 }
 
 // The cell a point is in, or about to enter: on an edge (within rounding) the way decides. A point

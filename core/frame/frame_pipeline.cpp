@@ -3,31 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/frame/level_error.hpp"
 #include "core/frame/picture.hpp"
 
 namespace ridgeline {
 namespace {
 
-constexpr double rebase_px = 0.1;     ///< float32 height rounding that is worth a refill
 constexpr int grid_attempts = 8;      ///< to fit the grid into its capacity
 constexpr double coarser = 1.5;       ///< wider spacing for the next attempt
-constexpr double bound_growth = 1.5;  ///< step by which a bound that cannot be met is raised
+constexpr double bound_growth = 1.1;  ///< step by which a bound that cannot be met is raised
 
-/// The smallest bound not below the wanted one that this pose allows.
+/// The smallest bound not below the wanted one that this pose and this terrain allow; where
+/// completeness is what does not allow it, the smallest of a few steps.
 Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& camera,
-                                  const GroundMap& map, TerrainKeeper& terrain,
-                                  const GeodeticPosition& eye, bool& refilled) {
-  const double clearance_m = terrain.clearance_m(eye);
-  const double over_base_m = eye.height_m - terrain.base_height_m();
-  auto budget = error_budget(camera, map, settings.error_px, over_base_m, clearance_m);
-  const auto still = error_budget(camera, map, limits::max_error_px, 0.0, clearance_m);
-  if (still && (!budget || budget.value().geometry_px > still.value().geometry_px + rebase_px)) {
-    terrain.rebase(eye);
-    refilled = true;
-  }
-  for (double wanted = settings.error_px; wanted <= limits::max_error_px; wanted *= bound_growth) {
-    budget = error_budget(camera, map, wanted, eye.height_m - terrain.base_height_m(), clearance_m);
-    if (budget) return budget;
+                                  const GroundMap& map, const LevelError& levels,
+                                  const HeightRounding& rounding) {
+  ErrorBudget budget = error_budget(camera, map, levels.angle_px, rounding);
+  double bound_px = std::max(settings.error_px, budget.smallest_px());
+  for (; bound_px <= limits::max_error_px; bound_px *= bound_growth) {
+    if (!stays_complete(camera, bound_px, levels, budget.geometry_rad)) continue;
+    budget.epsilon_px = bound_px;
+    return budget;
   }
   return Fault::no_error_bound;
 }
@@ -75,42 +71,43 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   report.local = local.value();
 
   // Terrain window.
-  report.window_loaded = terrain.follow(input.eye, settings.range_m);
+  terrain.follow(input.eye, renderer);
   report.window = terrain.summary();
-  if (report.window.known_posts == 0) {
-    if (report.window_loaded) renderer.upload_window(terrain.posts());
-    return removed(report, Reason::terrain_missing);
-  }
   report.range_m = terrain.covered_range_m(input.eye, settings.range_m);
-  if (report.range_m < limits::min_range_m) return removed(report, Reason::terrain_missing);
-  if (report.range_m < settings.range_m) add_reason(report.availability, Reason::range_reduced);
-  if (terrain.height_over_terrain_m(input.eye) <= 0.0) {
-    if (report.window_loaded) renderer.upload_window(terrain.posts());
-    return removed(report, Reason::below_terrain);
+  if (report.range_m < limits::min_range_m) {
+    return removed(report,
+                   report.window.complete ? Reason::terrain_missing : Reason::terrain_loading);
   }
+  if (report.window.known_posts == 0) return removed(report, Reason::terrain_missing);
+  const Clearance clearance = terrain.clearance(input.eye);
+  if (clearance.kind == Clearance::Kind::below) return removed(report, Reason::below_terrain);
+  if (clearance.kind == Clearance::Kind::undecided) return removed(report, Reason::terrain_loading);
+  const LevelError levels =
+      level_error(terrain, report.local, report.camera, report.range_m, clearance.distance_m);
+  report.range_m = levels.clear_range_m;
+  if (report.range_m < limits::min_range_m) return removed(report, Reason::no_bound);
+  if (report.range_m < settings.range_m) add_reason(report.availability, Reason::range_reduced);
 
   // Ground map and error budget.
   const auto map = ground_map(report.local, report.range_m);
-  bool refilled = report.window_loaded;
-  const auto budget =
-      map ? honest_budget(settings, report.camera, map.value(), terrain, input.eye, refilled)
-          : Result<ErrorBudget>(map.fault());
-  if (refilled) renderer.upload_window(terrain.posts());
-  report.window_loaded = refilled;
+  const HeightRounding rounding{
+      std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
+      clearance.distance_m};
+  const auto budget = map ? honest_budget(settings, report.camera, map.value(), levels, rounding)
+                          : Result<ErrorBudget>(map.fault());
   if (!budget) return removed(report, Reason::no_bound);
   report.budget = budget.value();
   report.bound_px = report.budget.epsilon_px;
   if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
   if (refused_tiles > 0) add_reason(report.availability, Reason::tile_refused);
-  if (report.window.tiles_mismatched > 0) add_reason(report.availability, Reason::tile_refused);
+  if (report.window.mismatched_tiles > 0) add_reason(report.availability, Reason::tile_refused);
 
   // Projected grid, error buffer, ray cast.
   PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera);
   if (grid.used) {
     report.nodes = fill_grid_tables(report.camera, map.value(), grid, tables.planes, tables.slopes);
   }
-  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.grid(),
-                        terrain.summary(), terrain.base_height_m());
+  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.view());
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;
@@ -130,7 +127,7 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
                                     blocks, attitude_valid);
   if (report.availability.mode == Mode::removed) report.bound_px = 0;
   renderer.upload_text(text_layer(report, tables.text));
-  renderer.shade(blocks, style_block(report, terrain.grid(), terrain.geoid(), attitude_valid));
+  renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid));
   return report;
 }
 
@@ -146,7 +143,7 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
     report.bound_px = 0;
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
-                   style_block(report, WindowGrid{}, GeoidLookup{}, true));
+                   style_block(report, PostLattice{}, GeoidLookup{}, true));
   }
   return counts;
 }

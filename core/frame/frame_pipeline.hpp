@@ -12,6 +12,7 @@ struct FrameSettings {
   ImageGeometry image;
   double error_px = limits::default_error_px;
   double range_m = limits::default_range_m;
+  GeoidLookup geoid;  ///< for the words and lines of the picture; posts have it in them already
   GridSpacing node_spacing{3.0, 1.5};  ///< docs/performance.md has the sweep over both
   /// Every pixel by the ray cast pass, no projected grid: the plain max-pyramid ray caster that the
   /// benchmark compares with.

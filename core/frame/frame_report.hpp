@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/frame/terrain_keeper.hpp"
 #include "core/geo/camera.hpp"
 #include "core/geo/local_frame.hpp"
 #include "core/monitor/availability.hpp"
@@ -21,7 +22,6 @@ struct FrameReport {
   ErrorBudget budget;
   int planes = 0, rows = 0;  ///< of the projected grid; 0 when every pixel was ray cast
   std::int64_t nodes = 0;
-  bool window_loaded = false;  ///< the terrain window was filled anew for this frame
   WindowSummary window;
 };
 

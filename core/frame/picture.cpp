@@ -85,26 +85,23 @@ double longitude_minutes(double cos_latitude) {
   return 60.0;
 }
 
-void put_ground_grid(const FrameReport& report, const WindowGrid& window, double cos_latitude,
+void put_ground_grid(const FrameReport& report, const PostLattice& lattice, double cos_latitude,
                      shader::StyleBlock& style) {
   const double minutes = longitude_minutes(cos_latitude);
   const double line_east_deg = minutes / 60.0, line_north_deg = 1.0 / 60.0;
   const GeodeticPosition& eye = report.local.eye;
-  const double east_deg = remainder_of(eye.longitude_deg - window.west_deg, 360.0);
-  const double column = std::floor(east_deg / window.longitude_step_deg);
-  const double row = std::floor((eye.latitude_deg - window.south_deg) / window.latitude_step_deg);
-  const double post_east_deg = window.west_deg + column * window.longitude_step_deg;
-  const double post_north_deg = window.south_deg + row * window.latitude_step_deg;
+  const double post_east_deg =
+      lattice.longitude_deg(std::floor(lattice.column_of(eye.longitude_deg)));
+  const double post_north_deg = lattice.latitude_deg(std::floor(lattice.row_of(eye.latitude_deg)));
   style.ground_grid = {f(remainder_of(post_east_deg, line_east_deg) / line_east_deg),
                        f(remainder_of(post_north_deg, line_north_deg) / line_north_deg),
-                       f(window.longitude_step_deg / line_east_deg),
-                       f(window.latitude_step_deg / line_north_deg)};
+                       f(lattice.longitude_step_deg / line_east_deg),
+                       f(lattice.latitude_step_deg / line_north_deg)};
   const double fx = report.camera.fx;
   const double east_m =
       minutes * rad_per_minute * report.local.prime_vertical_radius_m * cos_latitude;
   const double north_m = rad_per_minute * report.local.meridian_radius_m;
-  style.grid_step = {f(east_m * east_m * fx * fx), f(north_m * north_m * fx * fx),
-                     f(1.0 / window.columns), f(1.0 / window.rows)};
+  style.grid_step = {f(east_m * east_m * fx * fx), f(north_m * north_m * fx * fx), 0.0f, 0.0f};
 }
 
 /// The parabola through the undulations at the eye and at eight places round it.
@@ -154,11 +151,12 @@ FrameBlocks camera_blocks(const Camera& camera) {
   blocks.frame.ray_dy = put(axes[1] / camera.fy, camera.height_px);
   blocks.frame.ray_origin = put(camera.ray(0.5, 0.5).xyz, 0.0);
   blocks.frame.earth = {1.57e-7f, 1.57e-7f, 0.0f, 0.0f};
-  blocks.frame.window = {0, 0, 2, 2};
+  blocks.frame.window = {0, 0, 1, 0};
+  blocks.frame.level_size = {64.0f, 64.0f, 1.0f / 64.0f, 1.0f / 64.0f};
   return blocks;
 }
 
-shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& window,
+shader::StyleBlock style_block(const FrameReport& report, const PostLattice& lattice,
                                const GeoidLookup& geoid, bool attitude_valid) {
   shader::StyleBlock style{};
   const Camera& camera = report.camera;
@@ -177,12 +175,12 @@ shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& wind
   style.line.w = f(1.0 / report.range_m);
   const double cos_latitude = std::max(std::cos(report.local.eye.latitude_deg * deg), 1e-3);
   const bool ellipsoidal = geoid.undulation_m == nullptr;
-  style.post_step = {f(1.0 / (window.longitude_step_deg * deg *
+  style.post_step = {f(1.0 / (lattice.longitude_step_deg * deg *
                               report.local.prime_vertical_radius_m * cos_latitude)),
-                     f(1.0 / (window.latitude_step_deg * deg * report.local.meridian_radius_m)),
+                     f(1.0 / (lattice.latitude_step_deg * deg * report.local.meridian_radius_m)),
                      ellipsoidal ? 0.0f : f(geoid_sea_roughness_m),
                      f(ellipsoidal ? sea_height_m : geoid_sea_height_m)};
-  put_ground_grid(report, window, cos_latitude, style);
+  put_ground_grid(report, lattice, cos_latitude, style);
   put_geoid(report, geoid, cos_latitude, style);
   return style;
 }

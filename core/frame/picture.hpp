@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/frame/frame_report.hpp"
-#include "core/terrain/terrain_window.hpp"
+#include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
 
@@ -11,9 +11,9 @@ namespace ridgeline {
 FrameBlocks camera_blocks(const Camera& camera);
 
 /// Colours, light, lines and legend of a frame. The ground grid lies on whole minutes of latitude
-/// and longitude, whatever the window.
+/// and longitude, whatever the lattice.
 /// `geoid`: what tint, contours and sea are counted from; NaN (no data) counts as 0 m there.
-shader::StyleBlock style_block(const FrameReport& report, const WindowGrid& window,
+shader::StyleBlock style_block(const FrameReport& report, const PostLattice& lattice,
                                const GeoidLookup& geoid, bool attitude_valid);
 
 /// Writes the words of a frame into the text layer and returns it: NOT CERTIFIED always, the mode

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "config/limits.hpp"
@@ -13,142 +14,233 @@ constexpr double deg = std::numbers::pi / 180.0;
 constexpr double least_clearance_m = 0.05;
 constexpr int window_margin_posts = 4;  ///< posts beyond the range that nodes may look at
 constexpr int clearance_cells = 8;
-constexpr double travel_share = 0.25;  ///< part of the range the eye may move before a refill
 constexpr double metres_per_degree = 110'574.0;  ///< of latitude at the equator, the smallest
-
-bool inside(const GeoBox& box, const GeoBox& outer) {
-  double shift = 0;  // the two boxes may name the same meridians 360 degrees apart
-  const double middle = 0.5 * (box.west_deg + box.east_deg);
-  const double outer_middle = 0.5 * (outer.west_deg + outer.east_deg);
-  shift = 360.0 * std::round((outer_middle - middle) / 360.0);
-  return box.south_deg >= outer.south_deg && box.north_deg <= outer.north_deg &&
-         box.west_deg + shift >= outer.west_deg && box.east_deg + shift <= outer.east_deg;
-}
-
-int round_up(double posts) {
-  const int unit = limits::window_alignment_posts;
-  const int count = static_cast<int>(std::ceil(posts / unit)) * unit;
-  return std::clamp(count, 2 * unit, limits::max_window_posts);
-}
+constexpr double latitude_slack_deg =
+    1.0;  ///< a window is sized for an eye this much farther north
 
 }  // namespace
 
-WindowSize window_size(double latitude_deg, double range_m, double latitude_step_deg,
-                       double longitude_step_deg) {
-  const double latitude = std::min(std::abs(latitude_deg) + 0.5, 89.0);
-  const GeoBox box = range_box(latitude, 0.0, range_m * (1.0 + travel_share));
-  // Half a block is lost to alignment, and nodes look a few posts beyond the range.
-  const double extra = 64 + 4 * window_margin_posts;
-  return {round_up((box.east_deg - box.west_deg) / longitude_step_deg + extra),
-          round_up((box.north_deg - box.south_deg) / latitude_step_deg + extra)};
+GeoBox range_box(double latitude_deg, double longitude_deg, double range_m) {
+  constexpr double smallest_radius_m = 6'335'000.0;  // meridian radius at the equator
+  const double angle = 1.01 * range_m / smallest_radius_m;
+  const double ratio = std::sin(angle) / std::cos(latitude_deg * deg);
+  const double half_longitude = ratio < 1.0 ? std::asin(ratio) / deg : 180.0;
+  return {latitude_deg - angle / deg, longitude_deg - half_longitude, latitude_deg + angle / deg,
+          longitude_deg + half_longitude};
 }
 
-PostSteps finest_steps(std::span<const HeightTile> tiles) {
-  PostSteps steps;
-  for (const HeightTile& tile : tiles) {
-    const PostGrid& g = tile.grid;
-    if (steps.latitude_deg == 0 || g.latitude_step_deg < steps.latitude_deg * (1 - 1e-6)) {
-      steps.latitude_deg = g.latitude_step_deg;
-      steps.phase_latitude_deg = g.south_deg;
-    }
-    if (steps.longitude_deg == 0 || g.longitude_step_deg < steps.longitude_deg * (1 - 1e-6)) {
-      steps.longitude_deg = g.longitude_step_deg;
-      steps.phase_longitude_deg = g.west_deg;
-    }
+LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double range_m,
+                        double gpu_bytes) {
+  const double latitude = std::min(std::abs(latitude_deg) + latitude_slack_deg, 89.0);
+  const GeoBox box = range_box(latitude, 0.0, range_m);
+  const double half_columns = 0.5 * (box.east_deg - box.west_deg) / lattice.longitude_step_deg;
+  const double half_rows = 0.5 * (box.north_deg - box.south_deg) / lattice.latitude_step_deg;
+  return level_sizes(half_columns + window_margin_posts, half_rows + window_margin_posts,
+                     static_cast<std::int64_t>(gpu_bytes / gpu_bytes_per_post));
+}
+
+TerrainKeeper::TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
+                             std::span<HeldBlock> held, std::span<float> finest_posts)
+    : port_(port), lattice_(lattice), levels_(sizes, held), finest_posts_(finest_posts) {
+  RL_ASSERT(finest_posts.size() >=
+            static_cast<std::size_t>(sizes.columns()) * static_cast<std::size_t>(sizes.rows()));
+}
+
+void TerrainKeeper::follow(const GeodeticPosition& eye, Renderer& renderer) {
+  eye_column_ = lattice_.column_near(eye.longitude_deg, eye_column_);
+  eye_row_ = lattice_.row_of(eye.latitude_deg);
+  levels_.follow(eye_column_, eye_row_);
+  arrived_ = 0;
+  take_arrived(renderer);
+  order_missing();
+}
+
+void TerrainKeeper::settle(const GeodeticPosition& eye, Renderer& renderer) {
+  follow(eye, renderer);
+  while (!levels_.complete()) {
+    take_arrived(renderer);
+    order_missing();
   }
-  return steps;
 }
 
-TerrainKeeper::TerrainKeeper(TerrainPort& port, const GeoidLookup& geoid, int columns, int rows,
-                             std::span<float> posts, std::span<float> scratch)
-    : port_(port), geoid_(geoid), columns_(columns), rows_(rows), posts_(posts), scratch_(scratch) {
-  RL_ASSERT(posts.size() == static_cast<std::size_t>(columns) * rows);
-  RL_ASSERT(scratch.size() >= 2 * static_cast<std::size_t>(limits::max_window_posts));
-}
-
-bool TerrainKeeper::follow(const GeodeticPosition& eye, double range_m) {
-  range_m_ = range_m;
-  if (filled_) {
-    const GeoBox needed = range_box(eye.latitude_deg, eye.longitude_deg, range_m);
-    if (inside(needed, window_box(grid_, window_margin_posts))) return false;
-    // A window that cannot cover the range is moved only when the eye has left its middle.
-    const double north = std::abs(eye.latitude_deg - grid_.latitude_deg(rows_ / 2));
-    const double east =
-        std::abs(std::remainder(eye.longitude_deg - grid_.longitude_deg(columns_ / 2), 360.0));
-    const double limit_posts = 0.05 * std::min(rows_, columns_) + 64;
-    if (north < limit_posts * grid_.latitude_step_deg &&
-        east < limit_posts * grid_.longitude_step_deg) {
-      return false;
+void TerrainKeeper::take_arrived(Renderer& renderer) {
+  while (const TerrainBlock* block = port_.take()) {
+    if (block->edits < edits_) {  // built before the terrain changed
+      levels_.release(block->id);
+      continue;
     }
+    put(*block, renderer);
+    ++arrived_;
   }
-  fill(eye);
-  return true;
 }
 
-void TerrainKeeper::rebase(const GeodeticPosition& eye) {
-  fill(eye);
+void TerrainKeeper::put(const TerrainBlock& block, Renderer& renderer) {
+  if (!levels_.accept(block)) return;
+  const BlockSlot slot = levels_.slot(block.id);
+  renderer.upload_block(block, slot);
+  if (block.id.level != 0) return;
+  const auto index =
+      static_cast<std::size_t>(slot.row * levels_.sizes().column_blocks + slot.column);
+  std::copy(block.posts.begin(), block.posts.end(),
+            finest_posts_.begin() + static_cast<std::ptrdiff_t>(index * block.posts.size()));
 }
 
-void TerrainKeeper::fill(const GeodeticPosition& eye) {
-  // The window takes the finest step of the tiles within the display range; what it then holds is
-  // chosen by its own box, which may be larger or, where it cannot cover the range, smaller.
-  constexpr double srtm3_deg = 1.0 / 1200.0;  // no tile in range: any step will do, all is unknown
-  const GeoBox in_range = range_box(eye.latitude_deg, eye.longitude_deg, range_m_);
-  const PostSteps steps = finest_steps(port_.select(in_range));
-  const double step_lat = steps.latitude_deg > 0 ? steps.latitude_deg : srtm3_deg;
-  const double step_lon = steps.longitude_deg > 0 ? steps.longitude_deg : srtm3_deg;
-  grid_ = window_grid_at(eye.latitude_deg, eye.longitude_deg, step_lat, step_lon,
-                         steps.phase_latitude_deg, steps.phase_longitude_deg, columns_, rows_);
-  const std::span<const HeightTile> tiles = port_.select(window_box(grid_, 0));
-  base_height_m_ = std::round(eye.height_m);
-  summary_ = fill_window(grid_, tiles, geoid_, base_height_m_, posts_, scratch_);
-  filled_ = true;
+void TerrainKeeper::order_missing() {
+  const int coarsest = levels_.sizes().levels - 1;
+  const PostRect target = levels_.target(coarsest);
+  if (!(target == focus_)) {
+    focus_ = target;
+    const int edge = 4 * block_posts << coarsest;
+    port_.focus(geo_box(
+        lattice_, {target.west - edge, target.south - edge, target.east - target.west + 2 * edge,
+                   target.north - target.south + 2 * edge}));
+  }
+  std::array<BlockId, limits::blocks_in_flight> wanted;
+  const int room = std::min(port_.room(), limits::blocks_in_flight);
+  const int count = levels_.next_wanted(std::span(wanted).first(static_cast<std::size_t>(room)));
+  for (int k = 0; k < count; ++k) port_.order({wanted[static_cast<std::size_t>(k)], edits_});
+}
+
+void TerrainKeeper::edit(std::span<const PostGrid> regions, Renderer& renderer) {
+  edits_ += static_cast<int>(regions.size());
+  for (const PostGrid& region : regions) {
+    const double middle = 0.5 * (region.west_deg + region.east_deg());
+    const double shift = lattice_.column_near(middle, eye_column_) - lattice_.column_of(middle);
+    // A tile coarser than the lattice carries a changed post to its next posts.
+    const double west = std::floor(lattice_.column_of(region.west_deg) + shift -
+                                   region.longitude_step_deg / lattice_.longitude_step_deg);
+    const double east = std::ceil(lattice_.column_of(region.east_deg()) + shift +
+                                  region.longitude_step_deg / lattice_.longitude_step_deg);
+    const double south = std::floor(lattice_.row_of(region.south_deg) -
+                                    region.latitude_step_deg / lattice_.latitude_step_deg);
+    const double north = std::ceil(lattice_.row_of(region.north_deg()) +
+                                   region.latitude_step_deg / lattice_.latitude_step_deg);
+    levels_.over_held([&](const HeldBlock& held) {
+      const PostBox box = block_neighbourhood(held.id);
+      if (box.column > east || box.column + box.columns < west || box.row > north ||
+          box.row + box.rows < south) {
+        return;
+      }
+      if (const TerrainBlock* block = port_.build({held.id, edits_})) put(*block, renderer);
+    });
+  }
 }
 
 double TerrainKeeper::covered_range_m(const GeodeticPosition& eye, double range_m) const {
-  const GeoBox outer = window_box(grid_, window_margin_posts);
+  const PostRect rect = levels_.drawable(levels_.sizes().levels - 1);
+  if (rect.empty()) return 0.0;
   double range = range_m;
-  for (int step = 0; step < 40; ++step) {
-    if (inside(range_box(eye.latitude_deg, eye.longitude_deg, range), outer)) return range;
-    range *= 0.93;
+  const double margin = window_margin_posts << (levels_.sizes().levels - 1);
+  for (int step = 0; step < 120; ++step) {
+    const GeoBox box = range_box(eye.latitude_deg, eye.longitude_deg, range);
+    const double half = 0.5 * (box.east_deg - box.west_deg) / lattice_.longitude_step_deg + margin;
+    const bool inside = eye_column_ - half >= rect.west && eye_column_ + half <= rect.east &&
+                        lattice_.row_of(box.south_deg) - margin >= rect.south &&
+                        lattice_.row_of(box.north_deg) + margin <= rect.north;
+    if (inside) return range;
+    range *= 0.96;
   }
   return 0.0;
 }
 
-double TerrainKeeper::height_over_terrain_m(const GeodeticPosition& eye) const {
-  return eye.height_m - base_height_m_ -
-         window_height_m(grid_, posts_, eye.latitude_deg, eye.longitude_deg);
+float TerrainKeeper::finest_post(std::int32_t column, std::int32_t row) const {
+  const BlockId id{0, column >> 6, row >> 6};
+  if (levels_.find(id) == nullptr) return -2 * void_offset_m;
+  const BlockSlot slot = levels_.slot(id);
+  const auto block =
+      static_cast<std::size_t>(slot.row * levels_.sizes().column_blocks + slot.column);
+  const int inside = (row & (block_posts - 1)) * block_posts + (column & (block_posts - 1));
+  return finest_posts_[block * block_posts * block_posts + static_cast<std::size_t>(inside)];
 }
 
-double TerrainKeeper::clearance_m(const GeodeticPosition& eye) const {
-  double east = eye.longitude_deg - grid_.west_deg;
-  east -= 360.0 * std::floor(east / 360.0);
-  const auto column = static_cast<int>(east / grid_.longitude_step_deg);
-  const auto row = static_cast<int>((eye.latitude_deg - grid_.south_deg) / grid_.latitude_step_deg);
-  const double post_y = grid_.latitude_step_deg * metres_per_degree;
-  const double post_x = grid_.longitude_step_deg * metres_per_degree *
+/// Height of the known surface, NaN where it is unknown.
+double TerrainKeeper::height_below_m(double column, double row) const {
+  const auto c = static_cast<std::int32_t>(std::floor(column));
+  const auto r = static_cast<std::int32_t>(std::floor(row));
+  const double fx = column - c, fy = row - r;
+  const float sw = finest_post(c, r), se = finest_post(c + 1, r);
+  const float nw = finest_post(c, r + 1), ne = finest_post(c + 1, r + 1);
+  if (std::min({sw, se, nw, ne}) < void_threshold_m) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return (static_cast<double>(sw) * (1 - fx) + static_cast<double>(se) * fx) * (1 - fy) +
+         (static_cast<double>(nw) * (1 - fx) + static_cast<double>(ne) * fx) * fy;
+}
+
+Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
+  const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
+  const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
+  const double post_y = lattice_.latitude_step_deg * metres_per_degree;
+  const double post_x = lattice_.longitude_step_deg * metres_per_degree *
                         std::max(std::cos(eye.latitude_deg * deg), 1e-3);
   double steepest_x = 0, steepest_y = 0, highest = -1e9;
-  for (int r = row - clearance_cells; r <= row + clearance_cells; ++r) {
-    for (int c = column - clearance_cells; c <= column + clearance_cells; ++c) {
-      if (r < 0 || c < 0 || r + 1 >= rows_ || c + 1 >= columns_) continue;
-      const auto at = static_cast<std::size_t>(r) * columns_ + c;
-      const auto h = static_cast<double>(posts_[at]);
-      const auto right = static_cast<double>(posts_[at + 1]);
-      const auto up = static_cast<double>(posts_[at + columns_]);
-      if (h < static_cast<double>(void_threshold_m)) continue;
-      highest = std::max(highest, h);
+  for (std::int32_t r = row - clearance_cells; r <= row + clearance_cells; ++r) {
+    for (std::int32_t c = column - clearance_cells; c <= column + clearance_cells; ++c) {
       const auto limit = static_cast<double>(void_threshold_m);
+      const auto h = static_cast<double>(finest_post(c, r));
+      const auto right = static_cast<double>(finest_post(c + 1, r));
+      const auto up = static_cast<double>(finest_post(c, r + 1));
+      if (h < limit) continue;
+      highest = std::max(highest, h);
       if (right > limit) steepest_x = std::max(steepest_x, std::abs(right - h) / post_x);
       if (up > limit) steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
     }
   }
   // The surface is Lipschitz within the cells looked at; what lies beyond is at least that far off.
-  double over = height_over_terrain_m(eye);
-  if (std::isnan(over)) over = eye.height_m - base_height_m_ - highest;
+  const double below = height_below_m(eye_column_, eye_row_);
+  const double over = eye.height_m - (std::isnan(below) ? highest : below);
+  if (!std::isnan(below) && over <= 0.0) return {Clearance::Kind::below, least_clearance_m};
   const double near = over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y);
   const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
-  return std::max(std::min(near, beyond), least_clearance_m);
+  return {Clearance::Kind::above, std::max(std::min(near, beyond), least_clearance_m)};
+}
+
+Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
+  const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
+  const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
+  const PostRect near = levels_.drawable(0);
+  const bool drawn = !near.empty() && column >= near.west && column < near.east &&
+                     row >= near.south && row < near.north;
+  if (drawn) return near_clearance(eye);
+  for (int level = 1; level < levels_.sizes().levels; ++level) {
+    const HeldBlock* block = levels_.find({level, column >> (6 + level), row >> (6 + level)});
+    if (block == nullptr) continue;
+    const double over = eye.height_m - static_cast<double>(block->facts.highest_m);
+    if (over > 0) return {Clearance::Kind::above, std::max(over, least_clearance_m)};
+  }
+  return {};
+}
+
+WindowSummary TerrainKeeper::summary() const {
+  WindowSummary summary;
+  summary.lowest_m = 1e9;
+  summary.highest_m = -1e9;
+  levels_.over_valid(levels_.sizes().levels - 1, [&](const HeldBlock& block) {
+    const BlockFacts& facts = block.facts;
+    if (facts.known_posts > 0) {
+      summary.lowest_m = std::min(summary.lowest_m, static_cast<double>(facts.lowest_m));
+    }
+    summary.highest_m = std::max(summary.highest_m, static_cast<double>(facts.highest_m));
+    summary.known_posts += facts.known_posts;
+    summary.void_posts += facts.void_posts;
+    summary.mismatched_tiles = std::max(summary.mismatched_tiles, facts.mismatched_tiles);
+  });
+  summary.blocks_arrived = arrived_;
+  summary.complete = levels_.complete();
+  return summary;
+}
+
+TerrainView TerrainKeeper::view() const {
+  TerrainView view;
+  view.lattice = lattice_;
+  view.sizes = levels_.sizes();
+  view.eye_column = eye_column_;
+  view.eye_row = eye_row_;
+  for (int l = 0; l < view.sizes.levels; ++l) {
+    view.drawable[static_cast<std::size_t>(l)] = levels_.drawable(l);
+  }
+  view.highest_m = summary().highest_m;
+  return view;
 }
 
 }  // namespace ridgeline

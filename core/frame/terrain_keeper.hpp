@@ -2,64 +2,79 @@
 #include <span>
 
 #include "core/geo/local_frame.hpp"
-#include "core/terrain/terrain_port.hpp"
-#include "core/terrain/terrain_window.hpp"
+#include "core/render/renderer.hpp"
+#include "core/terrain/block_port.hpp"
+#include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
 
-/// Keeps the terrain window round the eye: decides when it must be filled anew, and fills it.
-/// Memory is the caller's, given once at boot.
+/// What the window holds round the eye, added up.
+struct WindowSummary {
+  double lowest_m = 0, highest_m = 0;  ///< HAE of known posts; highest of floors as well
+  std::int64_t known_posts = 0;        ///< of the coarsest level
+  std::int64_t void_posts = 0;
+  int mismatched_tiles = 0;  ///< tiles whose posts do not lie on the lattice, at most once a block
+  int blocks_arrived = 0;    ///< with this frame
+  bool complete = false;     ///< every level holds all it should
+};
+
+/// How far the eye is from the ground.
+struct Clearance {
+  enum class Kind : std::uint8_t { above, below, undecided };
+  Kind kind = Kind::undecided;  ///< undecided: too little terrain has arrived below the eye
+  double distance_m = 0;  ///< lower bound on the distance to the known surface, at least 0.05 m
+};
+
+/// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them
+/// into the renderer. Never waits for the disk unless its port does. Memory is the caller's, given
+/// once at boot.
 class TerrainKeeper {
  public:
-  /// Shape: posts.size() == columns * rows, scratch.size() >= 2 * limits::max_window_posts.
-  TerrainKeeper(TerrainPort& port, const GeoidLookup& geoid, int columns, int rows,
-                std::span<float> posts, std::span<float> scratch);
+  /// Shape: held.size() >= sizes.levels * sizes.blocks(), finest_posts.size() >= sizes.columns() *
+  ///        sizes.rows(): a copy of the finest level, for the ground under the eye.
+  TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
+                std::span<HeldBlock> held, std::span<float> finest_posts);
 
-  /// Makes the window cover the range round the eye. True when its posts changed.
-  bool follow(const GeodeticPosition& eye, double range_m);
-  /// Fills the window again with its base at the eye's height; for an eye close to the ground.
-  void rebase(const GeodeticPosition& eye);
+  /// Moves the window to the eye, takes what has arrived and orders what is missing.
+  void follow(const GeodeticPosition& eye, Renderer& renderer);
+  /// Follows until nothing is missing; for boot, and for single pictures.
+  void settle(const GeodeticPosition& eye, Renderer& renderer);
+  /// Puts the first `count` edits into the terrain; blocks they touch are built anew at once.
+  /// `regions`: where each of the new edits changes posts, in order.
+  void edit(std::span<const PostGrid> regions, Renderer& renderer);
 
-  /// Display range the window covers round the eye, at most `range_m`.
+  /// Display range the window covers round the eye, at most `range_m`; 0 when nothing has arrived.
   [[nodiscard]] double covered_range_m(const GeodeticPosition& eye, double range_m) const;
-  /// Eye height over the known surface below it; NaN over unknown ground.
-  [[nodiscard]] double height_over_terrain_m(const GeodeticPosition& eye) const;
-  /// Lower bound on the distance from the eye to the known surface, at least 0.05 m.
-  [[nodiscard]] double clearance_m(const GeodeticPosition& eye) const;
-
-  [[nodiscard]] const WindowGrid& grid() const { return grid_; }
-  [[nodiscard]] const WindowSummary& summary() const { return summary_; }
-  [[nodiscard]] double base_height_m() const { return base_height_m_; }
-  [[nodiscard]] std::span<const float> posts() const { return posts_; }
-  [[nodiscard]] const GeoidLookup& geoid() const { return geoid_; }
+  [[nodiscard]] Clearance clearance(const GeodeticPosition& eye) const;
+  [[nodiscard]] WindowSummary summary() const;
+  [[nodiscard]] TerrainView view() const;
+  [[nodiscard]] const TerrainLevels& levels() const { return levels_; }
+  [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
 
  private:
-  void fill(const GeodeticPosition& eye);
+  void take_arrived(Renderer& renderer);
+  void put(const TerrainBlock& block, Renderer& renderer);
+  void order_missing();
+  [[nodiscard]] float finest_post(std::int32_t column, std::int32_t row) const;
+  [[nodiscard]] double height_below_m(double column, double row) const;
+  [[nodiscard]] Clearance near_clearance(const GeodeticPosition& eye) const;
 
-  TerrainPort& port_;
-  GeoidLookup geoid_;
-  int columns_, rows_;
-  std::span<float> posts_, scratch_;
-  double range_m_ = 0;
-  bool filled_ = false;
-  WindowGrid grid_;
-  WindowSummary summary_;
-  double base_height_m_ = 0;
+  BlockPort& port_;
+  PostLattice lattice_;
+  TerrainLevels levels_;
+  std::span<float> finest_posts_;
+  double eye_column_ = 0, eye_row_ = 0;
+  PostRect focus_;
+  int edits_ = 0;
+  int arrived_ = 0;
 };
 
-/// Posts a window needs per side to cover the range at a latitude, some travel included.
-/// Units:  posts, a multiple of limits::window_alignment_posts, at most limits::max_window_posts.
-struct WindowSize {
-  int columns = 0, rows = 0;
-};
-WindowSize window_size(double latitude_deg, double range_m, double latitude_step_deg,
-                       double longitude_step_deg);
+/// The smallest box that holds every ground point within `range_m` of the eye (plus 1 %).
+GeoBox range_box(double latitude_deg, double longitude_deg, double range_m);
 
-/// The finest steps among tiles; what a window over them uses. Zero without tiles.
-struct PostSteps {
-  double latitude_deg = 0, longitude_deg = 0;
-  double phase_latitude_deg = 0, phase_longitude_deg = 0;
-};
-PostSteps finest_steps(std::span<const HeightTile> tiles);
+/// How large a window must be that covers the range round an eye near a latitude, within a budget
+/// of GPU bytes.
+LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double range_m,
+                        double gpu_bytes);
 
 }  // namespace ridgeline

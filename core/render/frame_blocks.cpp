@@ -8,7 +8,7 @@ namespace {
 
 // Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
 constexpr double float_angle_rad = 3.0e-6;
-constexpr double float_height_ratio = 1.8e-7;
+constexpr double float_height_ratio = 1.2e-7;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
     0.85;  ///< half width of a wedge that the nodes' overlap still covers
@@ -22,7 +22,7 @@ glm::vec4 vec4_of(const glm::dvec3& v, double w) {
 }
 
 /// Longest step for which a straight exit stays within slip_posts of the true track.
-double largest_step_m(const GroundMap& map, const WindowGrid& window) {
+double largest_step_m(const GroundMap& map, const PostLattice& window) {
   const double range2 = map.range_m * map.range_m;
   double bend = 0;  // posts per m², largest sum of second derivatives over the range
   const auto& a = map.latitude_deg;
@@ -38,52 +38,67 @@ double largest_step_m(const GroundMap& map, const WindowGrid& window) {
   return std::sqrt(2.0 * slip_posts / std::max(bend, 1e-12));
 }
 
+/// The window as the shaders address it: integers relative to the post south-west of the eye.
+void put_window(const TerrainView& view, shader::FrameBlock& b) {
+  constexpr std::int32_t low_bits = (1 << (block_levels + max_levels)) - 1;
+  const double west = std::floor(view.eye_column), south = std::floor(view.eye_row);
+  b.eye.x = f(view.eye_column - west);
+  b.eye.y = f(view.eye_row - south);
+  const auto column = static_cast<std::int32_t>(west), row = static_cast<std::int32_t>(south);
+  b.window = {column & low_bits, row & low_bits, view.sizes.levels, 0};
+  const int columns = view.sizes.columns(), rows = view.sizes.rows();
+  b.level_size = {f(columns), f(rows), f(1.0 / columns), f(1.0 / rows)};
+  const auto wrapped = [](std::int32_t value, int count) {
+    const std::int32_t rest = value % count;
+    return rest < 0 ? rest + count : rest;
+  };
+  for (int l = 0; l < view.sizes.levels; ++l) {
+    b.level_eye[l] = {wrapped(column >> l, columns), wrapped(row >> l, rows), 0, 0};
+    const PostRect& rect = view.drawable[static_cast<std::size_t>(l)];
+    b.level_rect[l] = {rect.west - column, rect.south - row, rect.east - column, rect.north - row};
+  }
+}
+
 }  // namespace
 
-Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
-                                 double eye_over_base_m, double clearance_m) {
+ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
+                         const HeightRounding& rounding) {
   const double edge = std::cos(camera.half_diagonal_rad(0.0));
   const double px_per_rad = std::max(camera.fx, camera.fy) / (edge * edge);
   ErrorBudget budget;
-  budget.epsilon_px = epsilon_px;
-  budget.geometry_px =
-      px_per_rad * (map.error_rad + float_angle_rad +
-                    float_height_ratio * std::abs(eye_over_base_m) / std::max(clearance_m, 0.05));
-  if (!(budget.geometry_px <= 0.5 * epsilon_px)) return Fault::error_bound_out_of_range;
+  budget.level_px = level_px;
+  budget.geometry_rad =
+      map.error_rad + float_angle_rad +
+      float_height_ratio * rounding.largest_m / std::max(rounding.clearance_m, 0.05);
+  budget.geometry_px = px_per_rad * budget.geometry_rad;
   return budget;
 }
 
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const WindowGrid& window,
-                         const WindowSummary& summary, double base_height_m) {
+                         const PolarGrid& grid, const TerrainView& view) {
   FrameBlocks blocks{};
   auto& b = blocks.frame;
   const glm::dmat3& axes = camera.enu_from_camera.columns;
   b.ray_dx = vec4_of(axes[0] / camera.fx, camera.width_px);
   b.ray_dy = vec4_of(axes[1] / camera.fy, camera.height_px);
   b.ray_origin = vec4_of(camera.ray(0.5, 0.5).xyz, map.range_m);
-  double east_deg = frame.eye.longitude_deg - window.west_deg;
-  east_deg -= 360.0 * std::floor(east_deg / 360.0);
-  const double x = east_deg / window.longitude_step_deg;
-  const double y = (frame.eye.latitude_deg - window.south_deg) / window.latitude_step_deg;
-  const double eye_over_base_m = frame.eye.height_m - base_height_m;
-  const float high = f(eye_over_base_m);
-  b.eye = {f(x - std::floor(x)), f(y - std::floor(y)), high,
-           f(eye_over_base_m - static_cast<double>(high))};
-  b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), f(base_height_m),
-             f(frame.eye.height_m)};
-  b.heights = {f(summary.highest_m - base_height_m), f(summary.lowest_m - base_height_m),
-               f(limits::top_level), f(largest_step_m(map, window))};
+  put_window(view, b);
+  const float high = f(frame.eye.height_m);
+  b.eye.z = high;
+  b.eye.w = f(frame.eye.height_m - static_cast<double>(high));
+  b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), 0.0f, high};
+  const int largest_node = block_levels + view.sizes.levels - 1;
+  b.heights = {f(view.highest_m), 0.0f, f(largest_node), f(largest_step_m(map, view.lattice))};
+  const double reach_m = grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
+  for (int l = 0; l < view.sizes.levels; ++l) b.level_reach[l].x = f(reach_m * (1 << l));
   const double sweep_end_m =
-      grid.used ? std::min(wedge_limit_m(frame, grid, window), 1.003 * map.range_m) : 0.0;
+      std::min(reach_m * (1 << (view.sizes.levels - 1)), 1.003 * map.range_m);
   b.tolerance = {f(sweep_end_m), f(map.swell_m[0]), f(1.0 / map.range_m), f(map.swell_m[1])};
-  b.window = {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), window.columns,
-              window.rows};
   for (int k = 0; k < 11; ++k) {
-    b.latitude[k / 4][k % 4] = f(map.latitude_deg[k] / window.latitude_step_deg);
+    b.latitude[k / 4][k % 4] = f(map.latitude_deg[k] / view.lattice.latitude_step_deg);
   }
   for (int k = 0; k < 9; ++k) {
-    b.longitude[k / 4][k % 4] = f(map.longitude_deg[k] / window.longitude_step_deg);
+    b.longitude[k / 4][k % 4] = f(map.longitude_deg[k] / view.lattice.longitude_step_deg);
   }
   auto& g = blocks.grid;
   g.grid = {grid.plane_count, grid.row_count, grid.used ? 1 : 0, 0};
@@ -100,18 +115,19 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   return blocks;
 }
 
-double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const WindowGrid& window) {
+double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const PostLattice& lattice,
+                     double range_m) {
   constexpr double rad_per_deg = 0.017453292519943295;
   double widest_rad = 0;
   for (const PolarGrid::Segment& segment : grid.planes) {
     widest_rad = std::max(widest_rad, 1.0 / segment.density);
   }
-  // The narrowest post within reach: that of the highest latitude the window holds.
-  const double north =
-      std::max(std::abs(window.latitude_deg(0)), std::abs(window.latitude_deg(window.rows - 1)));
-  const double east_m = window.longitude_step_deg * rad_per_deg * frame.prime_vertical_radius_m *
+  // The narrowest post within reach: that of the highest latitude looked at.
+  const double reach_deg = 1.01 * range_m / frame.meridian_radius_m / rad_per_deg;
+  const double north = std::abs(frame.eye.latitude_deg) + reach_deg;
+  const double east_m = lattice.longitude_step_deg * rad_per_deg * frame.prime_vertical_radius_m *
                         std::cos(std::min(north, 89.9) * rad_per_deg);
-  const double north_m = window.latitude_step_deg * rad_per_deg * frame.meridian_radius_m;
+  const double north_m = lattice.latitude_step_deg * rad_per_deg * frame.meridian_radius_m;
   return wedge_posts * std::min(east_m, 0.99 * north_m) / (0.5 * widest_rad);
 }
 

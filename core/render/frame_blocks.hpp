@@ -1,9 +1,10 @@
 #pragma once
+#include <algorithm>
 
 #include "core/geo/camera.hpp"
 #include "core/geo/ground_map.hpp"
 #include "core/geo/polar_grid.hpp"
-#include "core/terrain/terrain_window.hpp"
+#include "core/terrain/terrain_levels.hpp"
 #include "shaders/frame_block.h"
 
 namespace ridgeline {
@@ -15,10 +16,24 @@ struct PlaneRecord {
 };
 static_assert(sizeof(PlaneRecord) == 32);
 
-/// What the error of one frame may be, split by cause. All in pixels.
+/// What the error of one frame may be, split by cause.
 struct ErrorBudget {
-  double epsilon_px = 0;   ///< promised: the wanted bound, or the smallest this pose allows
-  double geometry_px = 0;  ///< what the drawn picture uses of it: ground map and float32 rounding
+  double epsilon_px = 0;    ///< promised: the wanted bound, or the smallest this pose allows
+  double geometry_px = 0;   ///< what the drawn picture uses of it: ground map and float32 rounding
+  double geometry_rad = 0;  ///< the same as an angle
+  double level_px = 0;      ///< and what coarser levels of the window use of it
+
+  /// The smallest bound these terms allow: all of them together, and twice the geometry, so that
+  /// an exact picture is complete up to rounding.
+  [[nodiscard]] double smallest_px() const {
+    return std::max(geometry_px + level_px, 2.0 * geometry_px);
+  }
+};
+
+/// What rounding of heights in float32 depends on.
+struct HeightRounding {
+  double largest_m = 0;    ///< largest magnitude of a height in the window
+  double clearance_m = 0;  ///< lower bound on the distance to the terrain
 };
 
 /// Everything the passes of one frame read. Plain data, made by frame_blocks() in double.
@@ -27,21 +42,20 @@ struct FrameBlocks {
   shader::GridBlock grid;
 };
 
-/// The bound a frame can promise, and what it is made of.
-/// Units:  px. `eye_over_base_m` and `clearance_m` (distance to the nearest terrain, a lower bound)
-///         set the float32 rounding term: docs/error_bound.md, section 4.
-/// Errors: Fault::error_bound_out_of_range when the geometry term exceeds half the wanted error.
-Result<ErrorBudget> error_budget(const Camera& camera, const GroundMap& map, double epsilon_px,
-                                 double eye_over_base_m, double clearance_m);
+/// What the error of a frame is made of; the promise itself is still to be chosen.
+/// Units:  px. `level_px`: what the levels of the window add. docs/error_bound.md, section 4.
+ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
+                         const HeightRounding& rounding);
 
 /// Uniforms of one frame: double until here, float after.
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const WindowGrid& window,
-                         const WindowSummary& summary, double base_height_m);
+                         const PolarGrid& grid, const TerrainView& view);
 
-/// Ground distance at which the half distance between two planes outgrows the overlap of the
-/// pyramid's nodes: up to here the sweep proves whole wedges empty.
-double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const WindowGrid& window);
+/// Ground distance at which the half distance between two planes outgrows the overlap of the nodes
+/// of the finest level: up to here they prove whole wedges empty; those of level l up to 2^l times
+/// that. `range_m`: how far posts are looked at, which narrow towards the poles.
+double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const PostLattice& lattice,
+                     double range_m);
 
 /// Tables of the grid. Shape: planes.size() >= grid.plane_count, slopes.size() >= grid.row_count.
 /// Result: nodes the sweep will write.

@@ -85,6 +85,27 @@ Result<Texture> make_texture(GLenum internal_format, int width, int height, int 
   return texture;
 }
 
+Result<Texture> make_texture_array(GLenum internal_format, int width, int height, int layers,
+                                   std::size_t texel_bytes) {
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  Texture texture(name);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, name);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, internal_format, width, height, layers);
+  if (glGetError() != GL_NO_ERROR) return Fault::gl_out_of_memory;
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, filter, GL_NEAREST);
+  }
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, wrap, GL_REPEAT);
+  }
+  bytes_allocated += static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                     static_cast<std::size_t>(layers) * texel_bytes;
+  return texture;
+}
+
 Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage) {
   while (glGetError() != GL_NO_ERROR) {
   }

@@ -55,6 +55,11 @@ using VertexArray = GlObject<delete_vertex_array>;
 Result<Texture> make_texture(GLenum internal_format, int width, int height, int levels,
                              std::size_t texel_bytes);
 
+/// Immutable array of 2-D textures, nearest filtering, repeating in both directions.
+/// Errors: Fault::gl_out_of_memory.
+Result<Texture> make_texture_array(GLenum internal_format, int width, int height, int layers,
+                                   std::size_t texel_bytes);
+
 /// Buffer of fixed size with undefined contents.
 /// Errors: Fault::gl_out_of_memory.
 Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage);

@@ -5,8 +5,6 @@
 
 #include "shaders/count_comp.hpp"
 #include "shaders/full_screen_vert.hpp"
-#include "shaders/pyramid_base_comp.hpp"
-#include "shaders/pyramid_next_comp.hpp"
 #include "shaders/ray_cast_frag.hpp"
 #include "shaders/shade_frag.hpp"
 #include "shaders/sweep_comp.hpp"
@@ -60,7 +58,8 @@ Result<Framebuffer> make_target(const Texture& texture) {
 Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& timer,
                                 ShaderLog log) {
   const int largest = limit(GL_MAX_TEXTURE_SIZE);
-  if (sizes.window_columns > largest || sizes.window_rows > largest || sizes.planes > largest ||
+  if (sizes.window.columns() > largest || sizes.window.rows() > largest || sizes.planes > largest ||
+      sizes.window.levels > limit(GL_MAX_ARRAY_TEXTURE_LAYERS) ||
       limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS) < 3 || limit(GL_MAX_COMPUTE_IMAGE_UNIFORMS) < 1) {
     return Fault::gl_limit_too_small;
   }
@@ -78,9 +77,7 @@ Status Renderer::make_programs(ShaderLog log) {
     std::string_view name, source;
   };
   for (const Entry& entry :
-       {Entry{&pyramid_base_, "pyramid_base", shader::pyramid_base_comp},
-        Entry{&pyramid_next_, "pyramid_next", shader::pyramid_next_comp},
-        Entry{&sweep_, "sweep", shader::sweep_comp}, Entry{&count_, "count", shader::count_comp}}) {
+       {Entry{&sweep_, "sweep", shader::sweep_comp}, Entry{&count_, "count", shader::count_comp}}) {
     const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
     if (!made) return made;
   }
@@ -93,9 +90,9 @@ Status Renderer::make_programs(ShaderLog log) {
 }
 
 Status Renderer::make_storage() {
-  const int w = sizes_.window_columns, h = sizes_.window_rows;
-  Status s = take(make_texture(GL_R32F, w, h, 1, 4), posts_);
-  if (s) s = take(make_texture(GL_R32F, w / 2 + w / 4, h / 2, 1, 4), highest_);
+  const int w = sizes_.window.columns(), h = sizes_.window.rows(), levels = sizes_.window.levels;
+  Status s = take(make_texture_array(GL_R32F, w, h, levels, 4), posts_);
+  if (s) s = take(make_texture_array(GL_R32F, w / 2 + w / 4, h / 2, levels, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
   if (s) s = take(make_texture(GL_R32UI, sizes_.width_px, sizes_.height_px, 1, 4), range_);
   if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
@@ -115,31 +112,34 @@ Status Renderer::make_storage() {
   return s;
 }
 
-void Renderer::upload_window(std::span<const float> posts) {
-  RL_ASSERT(posts.size() == static_cast<std::size_t>(sizes_.window_columns) * sizes_.window_rows);
-  bind_texture(shader::posts_unit, posts_);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.window_columns, sizes_.window_rows, GL_RED,
-                  GL_FLOAT, posts.data());
-  glBindImageTexture(shader::target_image, highest_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
-  int w = sizes_.window_columns / 2, h = sizes_.window_rows / 2;
-  glUseProgram(pyramid_base_.name());
-  glDispatchCompute(groups(w, 8), groups(h, 8), 1);
-  glUseProgram(pyramid_next_.name());
-  for (int level = 2; level <= limits::top_level; ++level) {
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    w /= 2;
-    h /= 2;
-    const glm::ivec2 below = pyramid_corner(level - 1), here = pyramid_corner(level);
-    glUniform4i(0, below.x, below.y, here.x, here.y);
-    glUniform2i(1, w, h);
-    glDispatchCompute(groups(w, 8), groups(h, 8), 1);
+void Renderer::upload_block(const TerrainBlock& block, const BlockSlot& slot) {
+  const int level = block.id.level;
+  glActiveTexture(GL_TEXTURE0 + shader::posts_unit);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, posts_.name());
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, slot.column * block_posts, slot.row * block_posts, level,
+                  block_posts, block_posts, 1, GL_RED, GL_FLOAT, block.posts.data());
+  glActiveTexture(GL_TEXTURE0 + shader::highest_unit);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, highest_.name());
+  const float* nodes = block.highest.data();
+  for (int k = 1; k <= block_levels; ++k) {
+    const glm::ivec2 corner = pyramid_corner(k);
+    const int side = block_posts >> k;
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, corner.x + slot.column * side,
+                    corner.y + slot.row * side, level, side, side, 1, GL_RED, GL_FLOAT, nodes);
+    nodes += static_cast<std::ptrdiff_t>(side) * side;
   }
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 glm::ivec2 Renderer::pyramid_corner(int level) const {
-  const int w = sizes_.window_columns, h = sizes_.window_rows;
+  const int w = sizes_.window.columns(), h = sizes_.window.rows();
   return level < 2 ? glm::ivec2(0) : glm::ivec2(w / 2, h / 2 - (h >> (level - 1)));
+}
+
+void Renderer::bind_window() const {
+  glActiveTexture(GL_TEXTURE0 + shader::posts_unit);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, posts_.name());
+  glActiveTexture(GL_TEXTURE0 + shader::highest_unit);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, highest_.name());
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
@@ -156,8 +156,7 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
   glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
   glBindBufferBase(ssbo, shader::counters_buffer, counters_.name());
-  bind_texture(shader::posts_unit, posts_);
-  bind_texture(shader::highest_unit, highest_);
+  bind_window();
   bind_texture(shader::nodes_unit, nodes_);
 
   timer_.stamp(static_cast<int>(Pass::grid));
@@ -202,7 +201,7 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   write_buffer(ubo, style_block_, &style, sizeof style);
   glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
   glBindBufferBase(ubo, shader::style_block_binding, style_block_.name());
-  bind_texture(shader::posts_unit, posts_);
+  bind_window();
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));

@@ -6,6 +6,7 @@
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
+#include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
 
@@ -13,11 +14,13 @@ namespace ridgeline {
 struct RenderSizes {
   int width_px = 0;
   int height_px = 0;
-  int window_columns = 0;
-  int window_rows = 0;
-  int planes = 0;  ///< capacity of the node texture
+  LevelSizes window;  ///< of the terrain window
+  int planes = 0;     ///< capacity of the node texture
   int rows = 0;
 };
+
+/// GPU bytes of the terrain for each post of the window: the post, and its share of the pyramid.
+inline constexpr double gpu_bytes_per_post = 4.0 * (1.0 + 0.375);
 
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
@@ -33,8 +36,8 @@ class Renderer {
   static Result<Renderer> make(const RenderSizes& sizes, const TimerFunctions& timer,
                                ShaderLog log);
 
-  /// Uploads a window and builds its pyramid. Shape: window_rows x window_columns.
-  void upload_window(std::span<const float> posts);
+  /// Puts one block into its place in the terrain window.
+  void upload_block(const TerrainBlock& block, const BlockSlot& slot);
 
   /// Draws one frame into the renderer's own targets; `nodes` planes of the grid are swept.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
@@ -59,11 +62,12 @@ class Renderer {
   Status make_programs(ShaderLog log);
   Status make_storage();
   void fill_target(const Framebuffer& target, const Program& program);
-  /// Where a pyramid level stands in its texture; the same rule is in shaders/terrain.glsl.
+  void bind_window() const;
+  /// Where a pyramid level stands in its layer; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program pyramid_base_, pyramid_next_, sweep_, ray_cast_, count_, shade_;
+  Program sweep_, ray_cast_, count_, shade_;
   Texture posts_, highest_, nodes_, range_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
   Framebuffer range_target_, colour_target_;

@@ -1,9 +1,11 @@
 #include "core/terrain/hgt_tile.hpp"
 
+#include <array>
+
 namespace ridgeline {
 namespace {
-constexpr std::size_t posts_3_arc_seconds = 1201;
-constexpr std::size_t posts_1_arc_second = 3601;
+// 3", 1" and 1/3" posts of one degree.
+constexpr std::array<std::size_t, 3> posts_a_side = {1201, 3601, 10801};
 
 constexpr std::size_t square_bytes(std::size_t posts) {
   return 2 * posts * posts;
@@ -15,10 +17,12 @@ Result<PostGrid> hgt_grid(std::size_t size_bytes, TileLocation location) {
       location.west_deg > 179) {
     return Fault::tile_location_mismatch;
   }
-  if (size_bytes < square_bytes(posts_3_arc_seconds)) return Fault::tile_truncated;
-  const bool coarse = size_bytes == square_bytes(posts_3_arc_seconds);
-  if (!coarse && size_bytes != square_bytes(posts_1_arc_second)) return Fault::tile_size_mismatch;
-  const int posts = static_cast<int>(coarse ? posts_3_arc_seconds : posts_1_arc_second);
+  if (size_bytes < square_bytes(posts_a_side.front())) return Fault::tile_truncated;
+  int posts = 0;
+  for (const std::size_t side : posts_a_side) {
+    if (size_bytes == square_bytes(side)) posts = static_cast<int>(side);
+  }
+  if (posts == 0) return Fault::tile_size_mismatch;
   const double step_deg = 1.0 / (posts - 1);
   return PostGrid{.south_deg = static_cast<double>(location.south_deg),
                   .west_deg = static_cast<double>(location.west_deg),

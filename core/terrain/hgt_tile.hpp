@@ -8,10 +8,11 @@
 
 namespace ridgeline {
 
-/// A view of an SRTM tile (.hgt): 1201 x 1201 (3") or 3601 x 3601 (1") posts, one degree square.
-/// The file has no header: its size gives the posts, its name the place.
+/// A view of an SRTM tile (.hgt): 1201 x 1201 (3"), 3601 x 3601 (1") or 10801 x 10801 (1/3") posts,
+/// one degree square. The shuttle flew the first two; the third is the same layout at the step of
+/// finer national surveys. The file has no header: its size gives the posts, its name the place.
 /// Domain: shorter than 1201 x 1201 posts is Fault::tile_truncated; every other size that is not
-///         one of the two is Fault::tile_size_mismatch (a cut 1" tile cannot be told from an
+///         one of the three is Fault::tile_size_mismatch (a cut 1" tile cannot be told from an
 ///         overlong 3" one); south -90..89 and west -180..179, else Fault::tile_location_mismatch.
 /// Cost:   O(1); no allocation.
 /// Owner:  the result views `bytes`.

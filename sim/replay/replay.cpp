@@ -120,7 +120,9 @@ Outcome replay(const ReplayOptions& options) {
     std::fprintf(stderr, "ridgeline: %s\n", problem.c_str());
   }
   Session session;
-  if (Outcome opened = session.open(options.scene, first_position(log, options.bus));
+  SceneOptions scene = options.scene;
+  scene.arrival = SceneOptions::Arrival::in_step;
+  if (Outcome opened = session.open(scene, first_position(log, options.bus));
       !opened.ok()) {
     return opened;
   }

@@ -86,7 +86,8 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["planes"] = report.planes;
   frame["rows"] = report.rows;
   frame["nodes"] = report.nodes;
-  frame["window_loaded"] = report.window_loaded;
+  frame["level_px"] = report.budget.level_px;
+  frame["blocks_arrived"] = report.window.blocks_arrived;
   frames_.push_back(frame);
   if (removed) return;
   cpu_ms_.push_back(picture.cpu_ms);

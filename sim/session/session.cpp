@@ -35,45 +35,61 @@ Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first
     geoid_ = std::move(geoid).value();
   }
   geoid_grid_ = geoid_.grid();
+  if (Outcome opened = open_folder(first); !opened.ok()) return opened;
+  const GeoBox near = range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m);
+  const double far_floor = far_floor_m(*folder_, near);
+  if (!folder_->any_usable()) {
+    return {folder_->refused().front().fault, folder_->refused().front().message};
+  }
+  if (Outcome opened = open_renderer(); !opened.ok()) return opened;
+  open_terrain(far_floor);
+  return {};
+}
+
+Outcome Session::open_folder(const GeodeticPosition& first) {
   if (!folder_->any_usable()) {
     const FileProblem& first_problem = folder_->refused().front();
     return {first_problem.fault, first_problem.message};
   }
-  const PostSteps steps = finest_steps(
-      select(range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m)));
-  if (!folder_->any_usable()) {
-    return {folder_->refused().front().fault, folder_->refused().front().message};
-  }
-  constexpr double srtm3_deg = 1.0 / 1200.0;  // nothing near: any window will do, all unknown
-  const WindowSize size = window_size(first.latitude_deg, options.settings.range_m,
-                                      steps.latitude_deg > 0 ? steps.latitude_deg : srtm3_deg,
-                                      steps.longitude_deg > 0 ? steps.longitude_deg : srtm3_deg);
-  return open_renderer(size.columns, size.rows);
+  lattice_ = lattice_of(folder_->grids(), first);
+  window_ = window_sizes(lattice_, first.latitude_deg, options_.settings.range_m,
+                         limits::terrain_gpu_bytes);
+  return {};
 }
 
-Outcome Session::open_renderer(int columns, int rows) {
+void Session::open_terrain(double far_floor) {
+  const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
+  options_.settings.geoid = geoid;
+  const auto arrival = options_.arrival == SceneOptions::Arrival::as_ready
+                           ? BlockWorker::Arrival::as_ready
+                           : BlockWorker::Arrival::in_step;
+  worker_ = std::make_unique<BlockWorker>(
+      *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival,
+                                      options_.read_delay_us});
+  held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
+  finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
+  terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_);
+}
+
+Outcome Session::open_renderer() {
   auto surface = EglSurface::make();
   if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
   surface_ = std::move(surface).value();
   const ImageGeometry& image = options_.settings.image;
-  const RenderSizes sizes{image.width_px, image.height_px,    columns,
-                          rows,           limits::max_planes, limits::max_rows};
+  const RenderSizes sizes{image.width_px, image.height_px, window_, limits::max_planes,
+                          limits::max_rows};
   auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
   if (!renderer) {
     return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
   }
   renderer_ = std::move(renderer).value();
   const auto pixels = static_cast<std::size_t>(image.width_px) * image.height_px;
-  posts_.resize(static_cast<std::size_t>(columns) * rows);
-  scratch_.resize(2 * static_cast<std::size_t>(limits::max_window_posts));
   planes_.resize(sizes.planes);
   slopes_.resize(sizes.rows);
   text_.resize(pixels);
   range_words_.resize(4 * pixels);
   rgba_.resize(4 * pixels);
   warm_up();
-  const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
-  terrain_.emplace(*this, geoid, columns, rows, posts_, scratch_);
   return {};
 }
 
@@ -82,7 +98,9 @@ Outcome Session::open_renderer(int columns, int rows) {
 void Session::warm_up() {
   FrameBlocks nothing{};
   nothing.frame.ray_origin.w = -1.0f;  // a display range that every ray has left
-  renderer_->upload_window(posts_);
+  nothing.frame.window.z = 1;
+  nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 64.0f, 1.0f / 64.0f};
+  renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1));
   renderer_->upload_text(text_);
   renderer_->shade(nothing, shader::StyleBlock{});
@@ -92,11 +110,17 @@ void Session::warm_up() {
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
+  const bool placed = input.availability.mode != Mode::removed;
+  if (placed && options_.arrival != SceneOptions::Arrival::as_ready &&
+      (!settled_ || options_.arrival == SceneOptions::Arrival::settled)) {
+    if (local_frame(input.eye)) terrain_->settle(input.eye, *renderer_);
+    settled_ = true;
+  }
   const double start_ms = now_ms();
   {
     const HeapSection after_boot;  // the frame path of the module; what follows is the desktop's
-    picture.report =
-        draw_frame(options_.settings, input, *terrain_, refused_count(), tables, *renderer_);
+    picture.report = draw_frame(options_.settings, input, *terrain_, worker_->refused_count(),
+                                tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;
@@ -112,23 +136,6 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = rgba_[4 * i + c];
   }
   return picture;
-}
-
-std::span<const HeightTile> Session::select(const GeoBox& box) {
-  folder_->select(box);
-  return folder_->tiles();
-}
-
-int Session::refused_count() const {
-  return static_cast<int>(folder_->refused().size());
-}
-
-std::vector<std::string> Session::new_problems() {
-  std::vector<std::string> messages;
-  for (; problems_told_ < folder_->refused().size(); ++problems_told_) {
-    messages.push_back(folder_->refused()[problems_told_].message);
-  }
-  return messages;
 }
 
 double Session::geoid_undulation_m(double latitude_deg, double longitude_deg) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/frame/frame_pipeline.hpp"
+#include "platform/block_worker.hpp"
 #include "platform/egl_surface.hpp"
 #include "platform/geoid_file.hpp"
 #include "platform/terrain_folder.hpp"
@@ -19,6 +20,12 @@ struct SceneOptions {
   std::string terrain_folder;
   std::string geoid = "none";  ///< a PGM or GTX file, or `none`
   FrameSettings settings;
+  /// When terrain counts as there: `settled` before every picture (single views), `in_step` so many
+  /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever
+  /// the disk is done.
+  enum class Arrival : std::uint8_t { settled, in_step, as_ready };
+  Arrival arrival = Arrival::settled;
+  int read_delay_us = 0;  ///< before every block; shows that slow disks change no bit
 };
 
 /// One drawn frame, read back.
@@ -32,7 +39,7 @@ struct Picture {
 
 /// The module joined together for the desktop: tiles, geoid, context, renderer, buffers.
 /// Everything is allocated by open(); drawing allocates only what it hands back.
-class Session final : public TerrainPort {
+class Session {
  public:
   /// Opens the inputs and sizes the terrain window for an eye near `first`.
   /// Outcome: the message names the file and what is wrong with it.
@@ -42,21 +49,20 @@ class Session final : public TerrainPort {
   /// `want_pixels`: read range and colour back (not part of cpu_ms).
   Picture draw(const FrameInput& input, bool want_pixels);
 
-  std::span<const HeightTile> select(const GeoBox& box) override;
-  [[nodiscard]] int refused_count() const override;
-
   /// Messages about refused tiles that were not reported yet.
-  std::vector<std::string> new_problems();
+  std::vector<std::string> new_problems() { return worker_->new_problems(); }
   [[nodiscard]] const FrameSettings& settings() const { return options_.settings; }
   [[nodiscard]] FrameSettings& settings() { return options_.settings; }
   [[nodiscard]] const std::string& geoid_name() const { return geoid_.name(); }
   [[nodiscard]] double geoid_undulation_m(double latitude_deg, double longitude_deg) const;
-  [[nodiscard]] std::size_t mapped_bytes() const { return folder_->mapped_bytes(); }
+  [[nodiscard]] std::size_t mapped_bytes() const { return worker_->mapped_bytes(); }
   [[nodiscard]] const char* driver() const { return surface_->description(); }
   [[nodiscard]] TerrainKeeper& terrain() { return *terrain_; }
 
  private:
-  Outcome open_renderer(int columns, int rows);
+  Outcome open_folder(const GeodeticPosition& first);
+  Outcome open_renderer();
+  void open_terrain(double far_floor);
   void warm_up();
 
   SceneOptions options_;
@@ -66,14 +72,18 @@ class Session final : public TerrainPort {
   GeoidGrid geoid_grid_;
   std::optional<EglSurface> surface_;
   std::optional<Renderer> renderer_;
+  PostLattice lattice_;
+  LevelSizes window_;
+  std::unique_ptr<BlockWorker> worker_;
+  std::vector<HeldBlock> held_;
+  std::vector<float> finest_posts_;
   std::optional<TerrainKeeper> terrain_;
-  std::vector<float> posts_, scratch_;
+  bool settled_ = false;
   std::vector<PlaneRecord> planes_;
   std::vector<float> slopes_;
   std::vector<std::uint8_t> text_;
   std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
-  std::size_t problems_told_ = 0;
 };
 
 /// Writes `N.json`, `N_range.npy` (unless removed) and `N_color.png` of contract section 3.

@@ -78,11 +78,9 @@ void add_position(LogText& log, const FlightSample& sample) {
 
 }  // namespace
 
-std::string bus_log(std::span<const FlightSample> flight, const BusGaps& gaps) {
-  std::string text =
-      "# ridgeline: SYNTHETIC terrain and flight, not a real place\n"
-      "# CANaerospace 1.7 frames; heights are above the ellipsoid and the terrain has no geoid "
-      "(--geoid none)\n";
+std::string bus_log(std::span<const FlightSample> flight, const BusGaps& gaps,
+                    std::string_view comments) {
+  std::string text(comments);
   text.reserve(flight.size() * 170);
   LogText log(text);
   for (std::size_t tick = 0; tick < flight.size(); ++tick) {

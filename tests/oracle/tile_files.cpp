@@ -116,7 +116,7 @@ Tile read_hgt(const std::filesystem::path& file) {
     if (size == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
   }
   if (tile.rows == 0) {
-    throw InputError(file.string(), "size is none of 1201, 3601 and 10801 posts squared");
+    throw InputError(file.string(), "size is not 1201, 3601 or 10801 posts squared");
   }
   tile.south_deg = corner->south_deg;
   tile.west_deg = corner->west_deg;

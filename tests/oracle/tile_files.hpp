@@ -15,8 +15,8 @@ namespace ridgeline::oracle {
 /// Errors: InputError naming the file.
 [[nodiscard]] std::optional<Tile> read_tile(const std::filesystem::path& file);
 
-/// SRTM `.hgt`: 1201, 3601 or 10801 posts a side, rows from the north, big-endian, -32768 void; the
-/// name gives the south-west corner.
+/// SRTM `.hgt`: 1201, 3601 or 10801 posts a side, rows from the north, big-endian, -32768 void;
+/// the name gives the south-west corner.
 [[nodiscard]] Tile read_hgt(const std::filesystem::path& file);
 
 /// DTED level 0, 1 or 2: the header gives origin, interval and counts (so every latitude zone is

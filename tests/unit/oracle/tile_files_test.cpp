@@ -76,17 +76,19 @@ TEST(TileFiles, hgt_has_its_place_in_its_name_and_runs_from_the_north) {
   EXPECT_FALSE(read_tile(folder.path() / "README.md"));
 }
 
-TEST(TileFiles, hgt_may_have_a_third_of_a_second_between_posts) {
+TEST(TileFiles, hgt_of_a_third_of_an_arc_second_is_read) {
   const scenes::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "N46E008.hgt";
+  const std::filesystem::path file = folder.path() / "N10E010.hgt";
   write(file, std::string("\x01\x02\x80\x00", 4));  // 258 m and a void in the north-west
-  std::filesystem::resize_file(file, 2U * 10801U * 10801U);
+  std::filesystem::resize_file(file, std::uintmax_t{2} * 10801 * 10801);
   const Tile tile = read_hgt(file);
   EXPECT_EQ(tile.columns, 10801);
-  EXPECT_EQ(tile.lat_step_deg, 1.0 / 10800);
+  EXPECT_DOUBLE_EQ(tile.lon_step_deg, 1.0 / 10800);
   EXPECT_EQ(tile.at(10800, 0), 258);
   EXPECT_TRUE(std::isnan(tile.at(10800, 1)));
   EXPECT_EQ(tile.at(0, 0), 0);
+  std::filesystem::resize_file(file, std::uintmax_t{2} * 10801 * 10801 - 2);
+  EXPECT_THROW((void)read_hgt(file), InputError);
 }
 
 TEST(Posts, keep_whole_metres_and_any_other_height_exactly) {

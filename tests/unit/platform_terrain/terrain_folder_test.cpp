@@ -90,6 +90,24 @@ TEST(TerrainFolder, heights_are_those_of_the_files) {
   EXPECT_EQ(first_post_m(terrain.tiles()[1]), 1234.0F);
 }
 
+TEST(TerrainFolder, third_of_an_arc_second_tile_is_mapped) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("N46E008.hgt");
+  constexpr std::size_t size_bytes = std::size_t{2} * 10801 * 10801;
+  test::write_bytes(path, std::vector<std::byte>{std::byte{0x01}, std::byte{0x02}});
+  std::filesystem::resize_file(path, size_bytes);  // sparse: zeros that take no room
+  TerrainFolder terrain = opened(folder);
+  terrain.select(whole_earth);
+  ASSERT_EQ(terrain.tiles().size(), 1U);
+  EXPECT_EQ(terrain.mapped_bytes(), size_bytes);
+  const HeightTile& tile = terrain.tiles()[0];
+  EXPECT_EQ(tile.grid.columns, 10801);
+  float north_west_m = 0;
+  read_posts(tile, 10800, 0, {&north_west_m, 1});
+  EXPECT_EQ(north_west_m, 258.0F);
+  EXPECT_EQ(first_post_m(tile), 0.0F);
+}
+
 TEST(TerrainFolder, moving_the_folder_keeps_its_tiles) {
   const TemporaryFolder folder;
   write_small(folder, "n46_e009.dt0", 46, 9, 1234);

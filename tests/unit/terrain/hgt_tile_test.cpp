@@ -14,6 +14,7 @@ using test::hgt_bytes;
 
 constexpr std::size_t bytes_3_arc_seconds = 2 * 1201 * 1201;
 constexpr std::size_t bytes_1_arc_second = 2 * 3601 * 3601;
+constexpr std::size_t bytes_third_arc_second = std::size_t{2} * 10801 * 10801;
 
 int ramp_m(int row, int column) {
   return 3 * row - 2 * column - 500;
@@ -26,8 +27,7 @@ float post_m(const HeightTile& tile, int row, int column) {
 }
 
 Fault fault_of_size(std::size_t size_bytes) {
-  const std::vector<std::byte> bytes(size_bytes);
-  return parse_hgt(bytes, 46, 8).fault();
+  return hgt_grid(size_bytes, {46, 8}).fault();
 }
 
 TEST(HgtTile, rows_run_from_the_south_and_columns_from_the_west) {
@@ -70,6 +70,21 @@ TEST(HgtTile, one_arc_second_tile_opens) {
   EXPECT_EQ(post_m(tile.value(), 3600, 3600), 8848.0F);
 }
 
+TEST(HgtTile, third_of_an_arc_second_tile_opens) {
+  std::vector<std::byte> bytes(bytes_third_arc_second);
+  bytes[2 * 10800] = std::byte{0x22};  // north-east corner: 8848 = 0x2290
+  bytes[2 * 10800 + 1] = std::byte{0x90};
+  const Result<HeightTile> tile = parse_hgt(bytes, 27, 86);
+  ASSERT_TRUE(tile.ok());
+  EXPECT_EQ(tile.value().grid.rows, 10801);
+  EXPECT_EQ(tile.value().grid.columns, 10801);
+  EXPECT_EQ(tile.value().grid.latitude_step_deg, 1.0 / 10800);
+  EXPECT_DOUBLE_EQ(tile.value().grid.north_deg(), 28.0);
+  EXPECT_EQ(post_m(tile.value(), 10800, 10800), 8848.0F);
+  EXPECT_EQ(post_m(tile.value(), 10800, 10799), 0.0F);
+  EXPECT_EQ(post_m(tile.value(), 0, 0), 0.0F);
+}
+
 TEST(HgtTile, void_and_impossible_heights_are_unknown) {
   const int heights_m[] = {-32767, -12001, -12000, -9999, -9998, -1, 0, 9000, 9001, 32767};
   const std::vector<std::byte> bytes =
@@ -100,6 +115,9 @@ TEST(HgtTile, every_other_size_is_refused) {
   EXPECT_EQ(fault_of_size(bytes_1_arc_second - 1), Fault::tile_size_mismatch);
   EXPECT_EQ(fault_of_size(bytes_1_arc_second), Fault::none);
   EXPECT_EQ(fault_of_size(bytes_1_arc_second + 2), Fault::tile_size_mismatch);
+  EXPECT_EQ(fault_of_size(bytes_third_arc_second - 1), Fault::tile_size_mismatch);
+  EXPECT_EQ(fault_of_size(bytes_third_arc_second), Fault::none);
+  EXPECT_EQ(fault_of_size(bytes_third_arc_second + 1), Fault::tile_size_mismatch);
 }
 
 TEST(HgtTile, place_outside_the_world_is_refused) {

@@ -1,0 +1,211 @@
+#include "core/terrain/post_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/assert.hpp"
+
+namespace ridgeline {
+namespace {
+
+constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
+constexpr int most_steps = 16;  ///< different steps among the tiles of one box
+constexpr double step_tolerance = 1e-6;
+
+/// A tile laid over a box: which of its posts are wanted, and where they go.
+struct Overlay {
+  const HeightTile& tile;
+  AxisFit rows, columns;
+  std::int32_t row0 = 0, row1 = -1, column0 = 0, column1 = -1;  ///< lattice posts, both included
+  std::int32_t last_row = 0, last_column = 0;                   ///< of the tile on the lattice
+};
+
+/// How the posts of one tile come to posts that tiles before it have set.
+struct Merge {
+  bool over_coarser = false;  ///< coarser tiles came before: inside its edge this one is the truth
+  double raised_m = 0;        ///< largest difference between two known heights of one post
+  bool half_known = false;    ///< a void of this tile met a known height on its edge
+
+  void put(float& post, float value, bool on_edge) {
+    if (over_coarser && !on_edge) {
+      post = value;
+    } else if (std::isnan(post)) {
+      post = value;
+    } else if (std::isnan(value)) {
+      half_known = true;
+    } else if (value != post) {
+      raised_m = std::max(raised_m, static_cast<double>(std::abs(value - post)));
+      post = std::max(post, value);
+    }
+  }
+};
+
+double cell_size(const HeightTile& tile) {
+  return tile.grid.latitude_step_deg * tile.grid.longitude_step_deg;
+}
+
+/// The largest cells below a size; 0 when there are none.
+double next_step(std::span<const HeightTile> tiles, double below) {
+  double next = 0;
+  for (const HeightTile& tile : tiles) {
+    const double own = cell_size(tile);
+    if (own < below * (1 - step_tolerance)) next = std::max(next, own);
+  }
+  return next;
+}
+
+bool lay(const PostLattice& lattice, const PostBox& box, Overlay& o) {
+  o.rows = fit_rows(lattice, o.tile.grid);
+  o.columns = fit_columns(lattice, o.tile.grid, box.column + 0.5 * box.columns);
+  if (o.rows.ratio == 0 || o.columns.ratio == 0) return false;
+  o.last_row = o.rows.first + (o.tile.grid.rows - 1) * o.rows.ratio;
+  o.last_column = o.columns.first + (o.tile.grid.columns - 1) * o.columns.ratio;
+  o.row0 = std::max(box.row, o.rows.first);
+  o.row1 = std::min(box.row + box.rows - 1, o.last_row);
+  o.column0 = std::max(box.column, o.columns.first);
+  o.column1 = std::min(box.column + box.columns - 1, o.last_column);
+  return true;
+}
+
+/// The wanted posts of one row of a tile, edits applied.
+void read_row(const TerrainSource& source, const Overlay& o, int row, int first,
+              std::span<float> out) {
+  read_posts(o.tile, row, first, out);
+  if (!source.edits.empty()) apply_edits(source.edits, o.tile.grid, row, first, out);
+}
+
+/// Merges one lattice row; `lower` and `upper` hold tile posts from tile column `first` on.
+void merge_row(const Overlay& o, int first, std::span<const float> lower,
+               std::span<const float> upper, float weight, bool edge_row, Merge& merge,
+               std::span<float> row) {
+  const int ratio = o.columns.ratio;
+  int k = (o.column0 - o.columns.first) / ratio - first;
+  int part = (o.column0 - o.columns.first) % ratio;
+  const auto blended = [&](int index) {
+    const float a = lower[static_cast<std::size_t>(index)];
+    if (weight == 0.0F) return a;
+    return a + weight * (upper[static_cast<std::size_t>(index)] - a);
+  };
+  for (std::int32_t column = o.column0; column <= o.column1; ++column) {
+    float value = blended(k);
+    if (part != 0) {
+      value += static_cast<float>(part) / static_cast<float>(ratio) * (blended(k + 1) - value);
+    }
+    const bool on_edge = edge_row || column == o.columns.first || column == o.last_column;
+    merge.put(row[static_cast<std::size_t>(column - o.column0)], value, on_edge);
+    if (++part == ratio) {
+      part = 0;
+      ++k;
+    }
+  }
+}
+
+void merge_tile(const TerrainSource& source, const PostBox& box, const Overlay& o, Merge& merge,
+                std::span<float> posts, std::span<float> scratch) {
+  const int first = (o.column0 - o.columns.first) / o.columns.ratio;
+  const int last = (o.column1 - o.columns.first + o.columns.ratio - 1) / o.columns.ratio;
+  const auto count = static_cast<std::size_t>(last - first + 1);
+  std::span<float> lower = scratch.first(count), upper = scratch.subspan(count, count);
+  int lower_row = -1, upper_row = -1;
+  for (std::int32_t r = o.row0; r <= o.row1; ++r) {
+    const int k = (r - o.rows.first) / o.rows.ratio, part = (r - o.rows.first) % o.rows.ratio;
+    if (k == upper_row) {
+      std::swap(lower, upper);
+      std::swap(lower_row, upper_row);
+    }
+    if (k != lower_row) read_row(source, o, k, first, lower);
+    lower_row = k;
+    if (part != 0 && k + 1 != upper_row) {
+      read_row(source, o, k + 1, first, upper);
+      upper_row = k + 1;
+    }
+    const bool edge_row = r == o.rows.first || r == o.last_row;
+    const auto start =
+        static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
+        static_cast<std::size_t>(o.column0 - box.column);
+    merge_row(o, first, lower, upper, static_cast<float>(part) / static_cast<float>(o.rows.ratio),
+              edge_row, merge,
+              posts.subspan(start, static_cast<std::size_t>(o.column1 - o.column0 + 1)));
+  }
+}
+
+void add_undulation(const TerrainSource& source, const PostBox& box, int stride,
+                    std::span<float> posts) {
+  const GeoidLookup& geoid = source.geoid;
+  if (geoid.undulation_m == nullptr) return;
+  const auto at = [&](std::int32_t column, std::int32_t row) {
+    const double latitude = std::clamp(source.lattice.latitude_deg(row), -90.0, 90.0);
+    return geoid.undulation_m(geoid.context, latitude, source.lattice.longitude_deg(column));
+  };
+  for (int r0 = 0; r0 < box.rows; r0 += stride) {
+    for (int c0 = 0; c0 < box.columns; c0 += stride) {
+      const std::int32_t row = box.row + r0, column = box.column + c0;
+      const double sw = at(column, row), se = stride > 1 ? at(column + stride, row) : sw;
+      const double nw = stride > 1 ? at(column, row + stride) : sw;
+      const double ne = stride > 1 ? at(column + stride, row + stride) : sw;
+      for (int r = r0; r < std::min(r0 + stride, box.rows); ++r) {
+        const double y = static_cast<double>(r - r0) / stride;
+        for (int c = c0; c < std::min(c0 + stride, box.columns); ++c) {
+          const double x = static_cast<double>(c - c0) / stride;
+          const double n = (sw * (1 - x) + se * x) * (1 - y) + (nw * (1 - x) + ne * x) * y;
+          float& post = posts[static_cast<std::size_t>(r) * static_cast<std::size_t>(box.columns) +
+                              static_cast<std::size_t>(c)];
+          post = static_cast<float>(static_cast<double>(post) + n);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+GeoBox geo_box(const PostLattice& lattice, const PostBox& box) {
+  GeoBox result;
+  result.south_deg = lattice.latitude_deg(box.row);
+  result.west_deg = lattice.longitude_deg(box.column);
+  result.north_deg = lattice.latitude_deg(box.row + box.rows - 1);
+  result.east_deg = lattice.longitude_deg(box.column + box.columns - 1);
+  return result;
+}
+
+RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geoid_stride,
+                        std::span<float> posts, std::span<float> scratch) {
+  RL_ASSERT(posts.size() ==
+            static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns));
+  RL_ASSERT(scratch.size() >= 4 * static_cast<std::size_t>(box.columns) + 8);
+  RegionFacts facts;
+  std::fill(posts.begin(), posts.end(), nan_f);
+  const GeoBox place = geo_box(source.lattice, box);
+  // Coarsest tiles first, so that each finer one has the last word; within a step, file order.
+  double step = std::numeric_limits<double>::infinity();
+  bool interpolated = false;
+  for (int turn = 0; turn < most_steps; ++turn) {
+    step = next_step(source.tiles, step);
+    if (step == 0) break;
+    const bool over_coarser = facts.tiles > 0;
+    for (const HeightTile& tile : source.tiles) {
+      const double own = cell_size(tile);
+      if (std::abs(own - step) > step_tolerance * step || !overlaps(place, tile.grid)) continue;
+      Overlay overlay{tile, {}, {}};
+      if (!lay(source.lattice, box, overlay)) {
+        ++facts.mismatched_tiles;
+        continue;
+      }
+      if (overlay.row0 > overlay.row1 || overlay.column0 > overlay.column1) continue;
+      ++facts.tiles;
+      interpolated = interpolated || overlay.rows.ratio > 1 || overlay.columns.ratio > 1;
+      Merge merge{over_coarser};
+      merge_tile(source, box, overlay, merge, posts, scratch);
+      // On one lattice the taller height is the truth of both sides. Where a side is interpolated
+      // between coarser posts, the truth has two sides and this region only one.
+      if (!interpolated) continue;
+      facts.seam_m = std::max(facts.seam_m, merge.raised_m);
+      facts.seam_void = facts.seam_void || (over_coarser && merge.half_known);
+    }
+  }
+  add_undulation(source, box, geoid_stride, posts);
+  return facts;
+}
+
+}  // namespace ridgeline

@@ -1,0 +1,166 @@
+#include "platform/block_worker.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/base/assert.hpp"
+#include "platform/heap_counter.hpp"
+
+namespace ridgeline {
+
+BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
+    : folder_(folder), settings_(settings) {
+  const auto side = static_cast<std::size_t>(region_side(settings.levels - 1));
+  posts_.resize(side * side);
+  rows_.resize(static_cast<std::size_t>(row_scratch(settings.levels - 1)));
+  orders_.resize(slots);
+  blocks_.resize(slots);
+  thread_ = std::thread([this] { run(); });
+}
+
+BlockWorker::~BlockWorker() {
+  {
+    const std::lock_guard lock(queue_mutex_);
+    stop_ = true;
+  }
+  work_.notify_all();
+  thread_.join();
+}
+
+void BlockWorker::know_edits(std::span<const TerrainEdit> edits) {
+  edits_ = edits;
+}
+
+int BlockWorker::room() const {
+  const std::lock_guard lock(queue_mutex_);
+  return static_cast<int>(slots - 1 - (ordered_ - taken_));
+}
+
+void BlockWorker::order(const BlockOrder& order) {
+  {
+    const std::lock_guard lock(queue_mutex_);
+    RL_ASSERT(ordered_ - taken_ < slots - 1);
+    orders_[ordered_ % slots] = order;
+    ++ordered_;
+  }
+  work_.notify_one();
+}
+
+const TerrainBlock* BlockWorker::take() {
+  std::unique_lock lock(queue_mutex_);
+  if (taken_ == ordered_) return nullptr;
+  if (settings_.arrival == Arrival::in_step) done_.wait(lock, [this] { return built_ > taken_; });
+  if (built_ == taken_) return nullptr;
+  // The slot taken before this one is free from now on; this one stays the caller's.
+  return &blocks_[taken_++ % slots];
+}
+
+void BlockWorker::focus(const GeoBox& box) {
+  const std::lock_guard lock(queue_mutex_);
+  focus_ = box;
+  focus_changed_ = true;
+}
+
+const TerrainBlock* BlockWorker::build(const BlockOrder& order) {
+  build_into(order, at_once_);
+  return &at_once_;
+}
+
+void BlockWorker::build_into(const BlockOrder& order, TerrainBlock& block) {
+  const std::lock_guard lock(folder_mutex_);
+  GeoBox focus;
+  bool changed = false;
+  {
+    const std::lock_guard queue_lock(queue_mutex_);
+    std::swap(changed, focus_changed_);
+    focus = focus_;
+  }
+  if (changed) folder_.select(focus);
+  const TerrainSource source{settings_.lattice, folder_.tiles(),
+                             edits_.first(static_cast<std::size_t>(order.edits)), settings_.geoid};
+  build_block(source, order.id, settings_.far_floor_m, {posts_, rows_}, block);
+}
+
+void BlockWorker::run() {
+  for (;;) {
+    std::uint64_t slot = 0;
+    BlockOrder order;
+    {
+      std::unique_lock lock(queue_mutex_);
+      work_.wait(lock, [this] { return stop_ || built_ < ordered_; });
+      if (stop_) return;
+      slot = built_ % slots;
+      order = orders_[slot];
+    }
+    if (settings_.delay_us > 0) {
+      std::this_thread::sleep_for(std::chrono::microseconds(settings_.delay_us));
+    }
+    {
+      const HeapSection after_boot;
+      build_into(order, blocks_[slot]);
+    }
+    {
+      const std::lock_guard lock(queue_mutex_);
+      ++built_;
+    }
+    done_.notify_one();
+  }
+}
+
+int BlockWorker::refused_count() const {
+  const std::lock_guard lock(folder_mutex_);
+  return static_cast<int>(folder_.refused().size());
+}
+
+std::vector<std::string> BlockWorker::new_problems() {
+  const std::lock_guard lock(folder_mutex_);
+  std::vector<std::string> messages;
+  for (; problems_told_ < folder_.refused().size(); ++problems_told_) {
+    messages.push_back(folder_.refused()[problems_told_].message);
+  }
+  return messages;
+}
+
+std::size_t BlockWorker::mapped_bytes() const {
+  const std::lock_guard lock(folder_mutex_);
+  return folder_.mapped_bytes();
+}
+
+std::size_t BlockWorker::buffer_bytes() const {
+  return sizeof(float) * (posts_.size() + rows_.size()) + blocks_.size() * sizeof(TerrainBlock) +
+         orders_.size() * sizeof(BlockOrder);
+}
+
+namespace {
+
+constexpr double over_lowest_m = 100.0;
+constexpr int samples = 16;  ///< a side of each tile
+
+/// The lowest of a few posts of a tile; NaN when none of them is known.
+double lowest_sample_m(const HeightTile& tile) {
+  double lowest = std::nan("");
+  float post = 0;
+  for (int k = 0; k < samples * samples; ++k) {
+    const int row = (tile.grid.rows - 1) * (k / samples) / (samples - 1);
+    const int column = (tile.grid.columns - 1) * (k % samples) / (samples - 1);
+    read_posts(tile, row, column, std::span(&post, 1));
+    if (!std::isnan(post)) lowest = std::fmin(lowest, static_cast<double>(post));
+  }
+  return lowest;
+}
+
+}  // namespace
+
+double far_floor_m(TerrainFolder& folder, const GeoBox& near) {
+  const GeoBox everywhere{-90.0, -180.0, 90.0, 180.0};
+  for (const GeoBox& box : {near, everywhere}) {
+    folder.select(box);
+    double lowest = std::nan("");
+    for (const HeightTile& tile : folder.tiles()) lowest = std::fmin(lowest, lowest_sample_m(tile));
+    if (!std::isnan(lowest)) return lowest + over_lowest_m;
+  }
+  return over_lowest_m;
+}
+
+}  // namespace ridgeline
