@@ -280,13 +280,13 @@ class RayWalk {
     return 360 * std::round((0.5 * (view.west_deg + view.east_deg) - lon) / 360);
   }
 
-  /// The nearest tile of a file: stated sea has cells of a degree, which say nothing of the data
-  /// that is missing. Null where all is stated sea.
+  /// The nearest tile of a file: stated sea has the finest steps of the folder, which may not be
+  /// those of the data that is missing. Null where all is stated sea.
   const Tile* nearest_tile(double lat, double lon) const {
     const Tile* best = nullptr;
     double best_distance = std::numeric_limits<double>::infinity();
     for (const Tracer::View& view : tracer_.views()) {
-      if (view.entry->tile.is_sea) continue;
+      if (view.entry->tile.sea) continue;
       const double north = std::max({view.south_deg - lat, lat - view.north_deg, 0.0});
       const double turned = lon + turn_to(view, lon);
       const double east = std::max({view.west_deg - turned, turned - view.east_deg, 0.0}) *

@@ -96,7 +96,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
 struct FolderTiles {
   std::vector<Tile> near;
   std::optional<Tile> elsewhere;  ///< some tile of a file that is not near
-  std::vector<Grid> grids;        ///< of every tile of a file
+  std::vector<Grid> grids;        ///< where a file has its posts, readable or not
   std::vector<Grid> far_grids;
   std::vector<std::string> refused;
   std::vector<DegreeCell> refused_cells;  ///< that their names name
@@ -109,6 +109,7 @@ struct FolderTiles {
     } catch (const InputError& error) {
       refused.emplace_back(error.what());
       if (const auto cell = cell_in_name(file)) refused_cells.push_back(*cell);
+      if (const auto grid = grid_of_file(file)) grids.push_back(*grid);
     }
     if (!tile) return;
     grids.push_back(*tile);
@@ -127,8 +128,9 @@ struct FolderTiles {
                        [&](const Grid& grid) { return reaches_into(grid, cell); });
   }
 
-  void add_sea(const DegreeCell& cell, const std::vector<Neighbourhood>& places) {
-    Tile tile = sea_tile(cell);
+  void add_sea(const DegreeCell& cell, const StepsPerDegree& steps,
+               const std::vector<Neighbourhood>& places) {
+    Tile tile = sea_tile(cell, steps);
     if (is_near(tile, places)) {
       near.push_back(std::move(tile));
     } else {
@@ -192,12 +194,13 @@ Terrain Terrain::load(const std::filesystem::path& folder, Geoid geoid,
   std::vector<DegreeCell> sea;
   std::copy_if(coverage.begin(), coverage.end(), std::back_inserter(sea),
                [&](const DegreeCell& cell) { return !all.has_file_for(cell); });
-  for (const DegreeCell& cell : sea) all.add_sea(cell, places);
+  const StepsPerDegree steps = finest_steps(all.grids);
+  for (const DegreeCell& cell : sea) all.add_sea(cell, steps, places);
   // Far from every tile all ground is unknown; some tile must still say how large its cells are.
-  const bool is_far_from_files =
-      std::all_of(all.near.begin(), all.near.end(), [](const Tile& tile) { return tile.is_sea; });
+  const bool is_far_from_files = std::all_of(all.near.begin(), all.near.end(),
+                                             [](const Tile& tile) { return tile.sea.has_value(); });
   if (is_far_from_files && all.elsewhere) all.near.push_back(std::move(*all.elsewhere));
-  if (all.near.empty() && !sea.empty()) all.near.push_back(sea_tile(sea.front()));
+  if (all.near.empty() && !sea.empty()) all.near.push_back(sea_tile(sea.front(), steps));
   if (all.near.empty() && !all.refused.empty()) throw InputError(all.refused.front());
   if (all.near.empty()) throw InputError(folder.string(), "folder holds no terrain tile");
   Terrain terrain(std::move(all.near), std::move(geoid), all.lowest_far_m);

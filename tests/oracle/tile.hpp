@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/oracle/grid.hpp"
+#include "tests/oracle/sheet.hpp"
 
 namespace ridgeline::oracle {
 
@@ -66,19 +68,27 @@ class Posts {
   std::vector<float> real_;
 };
 
-/// One tile as the file has it. Posts are points.
+/// One tile as the file has it, or a cell of stated sea. Posts are points.
 /// Units: m above the file's vertical datum.
 struct Tile : Grid {
-  std::string name;     ///< file name, for messages
-  Posts posts;          ///< rows x columns, row-major from the south
-  bool is_sea = false;  ///< stated by a coverage list, not read from a file
+  std::string name;                 ///< file name, for messages
+  Posts posts;                      ///< rows x columns, row-major from the south; none at sea
+  std::optional<Sheet<float>> sea;  ///< the posts of stated sea: 0 inside but where edits set them
 
   [[nodiscard]] std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(column);
   }
-  [[nodiscard]] float at(int row, int column) const { return posts[index(row, column)]; }
-  void set(int row, int column, float height_m) { posts.set(index(row, column), height_m); }
+  [[nodiscard]] float at(int row, int column) const {
+    return sea ? sea->at(row, column) : posts[index(row, column)];
+  }
+  void set(int row, int column, float height_m) {
+    if (sea) {
+      sea->set(row, column, height_m);
+    } else {
+      posts.set(index(row, column), height_m);
+    }
+  }
 };
 
 }  // namespace ridgeline::oracle

@@ -51,6 +51,33 @@ void require_geographic(const std::string& file, GDALDatasetH dataset) {
   }
 }
 
+Tile without_posts(const std::filesystem::path& path, GDALDatasetH dataset) {
+  const std::string file = path.string();
+  double transform[6] = {};
+  if (GDALGetGeoTransform(dataset, transform) != CE_None) {
+    throw InputError(file, "raster has no georeference");
+  }
+  require_geographic(file, dataset);
+  if (transform[2] != 0 || transform[4] != 0 || transform[1] <= 0 || transform[5] >= 0) {
+    throw InputError(file, "raster is not north up");
+  }
+  Tile tile;
+  tile.name = path.filename().string();
+  tile.columns = GDALGetRasterXSize(dataset);
+  tile.rows = GDALGetRasterYSize(dataset);
+  if (tile.rows < 2 || tile.columns < 2 || GDALGetRasterCount(dataset) < 1) {
+    throw InputError(file, "raster has no cell");
+  }
+  tile.lon_step_deg = snapped_step(transform[1]);
+  tile.lat_step_deg = snapped_step(-transform[5]);
+  const double west = transform[0] + 0.5 * transform[1];
+  const double south = transform[3] + (tile.rows - 0.5) * transform[5];
+  tile.west_deg = snapped_origin(west, tile.lon_step_deg);
+  tile.south_deg = snapped_origin(south, tile.lat_step_deg);
+  if (tile.west_deg >= 180) tile.west_deg -= 360;
+  return tile;
+}
+
 void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
   int has_no_data = 0;
   const double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
@@ -77,32 +104,15 @@ void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
 }  // namespace
 
 Tile read_geotiff(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const Dataset dataset = open_raster(file);
-  double transform[6] = {};
-  if (GDALGetGeoTransform(dataset.get(), transform) != CE_None) {
-    throw InputError(file, "raster has no georeference");
-  }
-  require_geographic(file, dataset.get());
-  if (transform[2] != 0 || transform[4] != 0 || transform[1] <= 0 || transform[5] >= 0) {
-    throw InputError(file, "raster is not north up");
-  }
-  Tile tile;
-  tile.name = path.filename().string();
-  tile.columns = GDALGetRasterXSize(dataset.get());
-  tile.rows = GDALGetRasterYSize(dataset.get());
-  if (tile.rows < 2 || tile.columns < 2 || GDALGetRasterCount(dataset.get()) < 1) {
-    throw InputError(file, "raster has no cell");
-  }
-  tile.lon_step_deg = snapped_step(transform[1]);
-  tile.lat_step_deg = snapped_step(-transform[5]);
-  const double west = transform[0] + 0.5 * transform[1];
-  const double south = transform[3] + (tile.rows - 0.5) * transform[5];
-  tile.west_deg = snapped_origin(west, tile.lon_step_deg);
-  tile.south_deg = snapped_origin(south, tile.lat_step_deg);
-  if (tile.west_deg >= 180) tile.west_deg -= 360;
-  read_posts(file, GDALGetRasterBand(dataset.get(), 1), tile);
+  const Dataset dataset = open_raster(path.string());
+  Tile tile = without_posts(path, dataset.get());
+  read_posts(path.string(), GDALGetRasterBand(dataset.get(), 1), tile);
   return tile;
+}
+
+Grid geotiff_grid(const std::filesystem::path& path) {
+  const Dataset dataset = open_raster(path.string());
+  return without_posts(path, dataset.get());
 }
 
 }  // namespace ridgeline::oracle

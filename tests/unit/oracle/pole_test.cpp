@@ -232,8 +232,8 @@ TEST(Pole, a_missing_cell_across_it_is_unknown_and_nothing_else_is) {
 TEST(Pole, stated_sea_reaches_it) {
   std::vector<Tile> tiles;
   for (int west = -180; west < 180; ++west) {
-    tiles.push_back(sea_tile({89, west}));
-    tiles.push_back(sea_tile({88, west}));
+    tiles.push_back(sea_tile({89, west}, {1200, 1200}));
+    tiles.push_back(sea_tile({88, west}, {1200, 1200}));
   }
   expect_sampled_truth({std::move(tiles), Geoid()}, 1, 100, 50);
 }

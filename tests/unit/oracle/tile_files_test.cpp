@@ -141,6 +141,29 @@ TEST(TileFiles, damaged_dted_is_refused) {
   }
 }
 
+TEST(TileFiles, damaged_posts_leave_the_place_of_a_tile_known) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "any.dt0";
+  std::string bytes = dted("0220000W", "0640000N", 11, 21, 0);
+  bytes[3428 + 20] = static_cast<char>(bytes[3428 + 20] ^ 1);
+  write(file, bytes);
+  const std::optional<Grid> grid = grid_of_file(file);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->south_deg, 64);
+  EXPECT_EQ(grid->lon_step_deg, 0.1);
+  // So its cell is no sea, and the sea beside it has its steps.
+  const Terrain terrain = Terrain::load(folder.path(), Geoid(), {}, {{64, -22}, {64, -21}});
+  EXPECT_EQ(terrain.ignored_sea_cells(), 1);
+  ASSERT_EQ(terrain.tiles().size(), 1U);
+  EXPECT_EQ(terrain.tiles()[0].tile.west_deg, -21);
+  EXPECT_EQ(terrain.tiles()[0].tile.columns, 11);
+  EXPECT_EQ(terrain.tiles()[0].tile.rows, 21);
+  write(file, bytes.substr(0, bytes.size() - 1));
+  EXPECT_FALSE(grid_of_file(file));
+  EXPECT_FALSE(grid_of_file(folder.path() / "none.tif"));
+  EXPECT_FALSE(grid_of_file(folder.path() / "N46E008.hgt"));
+}
+
 void write_geotiff(const std::filesystem::path& file, int epsg, double west, double north,
                    double step) {
   GDALAllRegister();
