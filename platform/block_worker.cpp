@@ -1,7 +1,6 @@
 #include "platform/block_worker.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/base/assert.hpp"
@@ -32,7 +31,12 @@ void BlockWorker::know_edits(std::span<const TerrainEdit> edits) {
   edits_ = edits;
 }
 
-int BlockWorker::room() const {
+int BlockWorker::room() {
+  if (taking_) {
+    const std::chrono::duration<double, std::milli> all = Clock::now() - take_start_;
+    last_take_ = {all.count() - wait_ms_, wait_ms_};
+    taking_ = false;
+  }
   const std::lock_guard lock(queue_mutex_);
   return static_cast<int>(slots - 1 - (ordered_ - taken_));
 }
@@ -48,9 +52,18 @@ void BlockWorker::order(const BlockOrder& order) {
 }
 
 const TerrainBlock* BlockWorker::take() {
+  if (!taking_) {
+    taking_ = true;
+    take_start_ = Clock::now();
+    wait_ms_ = 0;
+  }
   std::unique_lock lock(queue_mutex_);
   if (taken_ == ordered_) return nullptr;
-  if (settings_.arrival == Arrival::in_step) done_.wait(lock, [this] { return built_ > taken_; });
+  if (settings_.arrival == Arrival::in_step && built_ == taken_) {
+    const Clock::time_point before = Clock::now();
+    done_.wait(lock, [this] { return built_ > taken_; });
+    wait_ms_ += std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+  }
   if (built_ == taken_) return nullptr;
   // The slot taken before this one is free from now on; this one stays the caller's.
   return &blocks_[taken_++ % slots];
@@ -106,6 +119,11 @@ void BlockWorker::run() {
     }
     done_.notify_one();
   }
+}
+
+std::uint64_t BlockWorker::blocks_taken() const {
+  const std::lock_guard lock(queue_mutex_);
+  return taken_;
 }
 
 int BlockWorker::refused_count() const {

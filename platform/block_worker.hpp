@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -42,12 +43,20 @@ class BlockWorker final : public BlockPort {
   /// order.
   void know_edits(std::span<const TerrainEdit> edits);
 
-  [[nodiscard]] int room() const override;
+  [[nodiscard]] int room() override;
   void order(const BlockOrder& order) override;
   const TerrainBlock* take() override;
   void focus(const GeoBox& box) override;
   const TerrainBlock* build(const BlockOrder& order) override;
   [[nodiscard]] int refused_count() const override;
+
+  /// What taking blocks cost the frame that took them.
+  struct TakeTimes {
+    double upload_ms = 0;  ///< between the first take() and the end of the taking, waits left out
+    double wait_ms = 0;    ///< for blocks not finished; 0 with Arrival::as_ready
+  };
+  [[nodiscard]] TakeTimes last_take() const { return last_take_; }
+  [[nodiscard]] std::uint64_t blocks_taken() const;
 
   /// Messages about tiles refused since the last call.
   std::vector<std::string> new_problems();
@@ -77,6 +86,13 @@ class BlockWorker final : public BlockPort {
 
   mutable std::mutex folder_mutex_;  ///< guards the folder and the scratch buffers
   std::size_t problems_told_ = 0;
+
+  using Clock = std::chrono::steady_clock;  ///< the taker's thread alone uses what follows
+  Clock::time_point take_start_;
+  bool taking_ = false;
+  double wait_ms_ = 0;
+  TakeTimes last_take_;
+
   std::thread thread_;
 };
 

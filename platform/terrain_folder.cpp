@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -70,6 +71,19 @@ FileResult<PostGrid> described_dted(const std::string& path) {
   return grid.value();
 }
 
+/// Posts a side of a one-degree tile with the finest steps of some tiles; 1201 without any.
+std::pair<int, int> finest_posts(const std::vector<PostGrid>& grids) {
+  double rows = 0, columns = 0;
+  for (const PostGrid& grid : grids) {
+    rows = std::max(rows, std::round(1.0 / grid.latitude_step_deg));
+    columns = std::max(columns, std::round(1.0 / grid.longitude_step_deg));
+  }
+  constexpr double srtm3 = 1200, most = 36'000;
+  if (rows < 1 || columns < 1) rows = columns = srtm3;
+  return {static_cast<int>(std::min(rows, most)) + 1,
+          static_cast<int>(std::min(columns, most)) + 1};
+}
+
 }  // namespace
 
 std::optional<TerrainFolder::Format> TerrainFolder::format_of(const std::string& path,
@@ -90,6 +104,8 @@ FileResult<PostGrid> TerrainFolder::described(const std::string& path, Format fo
       return described_dted(path);
     case Format::extra:
       return extra->describe(path);
+    case Format::sea:
+      break;
   }
   return file_problem(path, Fault::tile_unsupported, "");
 }
@@ -133,13 +149,46 @@ bool TerrainFolder::search(const std::string& folder, bool into_sub_folders) {
   return true;
 }
 
-FileResult<TerrainFolder> TerrainFolder::open(const std::string& path, TileReader* extra) {
+void TerrainFolder::add_sea(const TileLocation& cell, int rows, int columns) {
+  constexpr double inside = 1e-6;  // a tile that only touches the cell does not lie in it
+  const GeoBox box{cell.south_deg + inside, cell.west_deg + inside, cell.south_deg + 1 - inside,
+                   cell.west_deg + 1 - inside};
+  const bool has_tile = std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.format != Format::sea && overlaps(box, entry.grid);
+  });
+  const bool has_refused =
+      std::any_of(refused_.begin(), refused_.end(), [&](const FileProblem& problem) {
+        const Result<TileLocation> named = location_from_name(file_name(problem.file));
+        return named.ok() && named.value() == cell;
+      });
+  if (has_tile || has_refused) {  // a corrupt tile never becomes sea
+    ++idle_sea_count_;
+    return;
+  }
+  Entry entry;
+  entry.grid = {static_cast<double>(cell.south_deg),
+                static_cast<double>(cell.west_deg),
+                1.0 / (rows - 1),
+                1.0 / (columns - 1),
+                rows,
+                columns};
+  entry.format = Format::sea;
+  entry.problem.file = cell_name(cell.south_deg, cell.west_deg) + " (sea)";
+  entries_.push_back(std::move(entry));
+  ++sea_count_;
+}
+
+FileResult<TerrainFolder> TerrainFolder::open(const std::string& path, TileReader* extra,
+                                              std::span<const TileLocation> sea) {
   TerrainFolder folder;
   folder.extra_ = extra;
   if (!folder.search(path, true)) return folder.refused_.front();
   if (folder.entries_.empty() && folder.refused_.empty()) {
     return file_problem(path, Fault::folder_without_tiles, "");
   }
+  folder.usable_count_ = folder.entries_.size();  // statements alone are no terrain
+  const auto [rows, columns] = finest_posts(folder.grids());
+  for (const TileLocation& cell : sea) folder.add_sea(cell, rows, columns);
   std::vector<Entry>& entries = folder.entries_;
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.grid.south_deg, a.grid.west_deg, a.problem.file) <
@@ -150,7 +199,6 @@ FileResult<TerrainFolder> TerrainFolder::open(const std::string& path, TileReade
   }
   folder.tiles_.reserve(entries.size());
   folder.refused_.reserve(folder.refused_.size() + entries.size());
-  folder.usable_count_ = entries.size();
   return folder;
 }
 
@@ -173,13 +221,19 @@ bool TerrainFolder::select(const GeoBox& box) {
 
 std::vector<PostGrid> TerrainFolder::grids() const {
   std::vector<PostGrid> grids;
-  for (const Entry& entry : entries_) grids.push_back(entry.grid);
+  for (const Entry& entry : entries_) {
+    if (entry.format != Format::sea) grids.push_back(entry.grid);
+  }
   return grids;
 }
 
 void TerrainFolder::choose(Entry& entry) {
   if (entry.format == Format::extra) {
     choose_decoded(entry);
+    return;
+  }
+  if (entry.format == Format::sea) {
+    entry.tile = HeightTile{entry.grid, TileLayout::all_zero, {}};
     return;
   }
   Result<MappedFile> mapping = MappedFile::open(entry.problem.file.c_str());
@@ -221,7 +275,7 @@ void TerrainFolder::drop(Entry& entry) {
   if (entry.format == Format::extra) {
     decoded_bytes_ -= entry.tile->bytes.size();
     entry.decoded = {};
-  } else {
+  } else if (entry.format != Format::sea) {
     mapped_bytes_ -= entry.tile->bytes.size();
     entry.mapping = {};
   }

@@ -33,7 +33,11 @@ class TerrainFolder {
   ///         are all refused opens: see any_usable().
   /// Cost:   reads every name, the headers of DTED files and what the reader's describe() reads.
   ///         Allocates everything that select() needs for .hgt and DTED.
-  static FileResult<TerrainFolder> open(const std::string& path, TileReader* extra = nullptr);
+  /// `sea`: cells that an installer states to be sea. Where no file lies in such a cell, not even a
+  ///         refused one, it is a tile whose posts stand at 0 m over the tiles' datum, with the
+  ///         finest steps of the tiles found.
+  static FileResult<TerrainFolder> open(const std::string& path, TileReader* extra = nullptr,
+                                        std::span<const TileLocation> sea = {});
 
   /// Maps the tiles that meet the box and unmaps the others; true when that changed tiles().
   /// A tile refused on the way shows in refused().
@@ -46,7 +50,12 @@ class TerrainFolder {
   /// Owner: views this folder; valid until the next select().
   [[nodiscard]] std::span<const HeightTile> tiles() const { return tiles_; }
 
-  /// The post grids of all tiles found, in the same order, chosen or not.
+  /// Cells that became sea by the installer's statement, and statements not followed because a file
+  /// lies in the cell.
+  [[nodiscard]] int sea_count() const { return sea_count_; }
+  [[nodiscard]] int idle_sea_count() const { return idle_sea_count_; }
+
+  /// The post grids of all tiles found in files, in the same order, chosen or not.
   [[nodiscard]] std::vector<PostGrid> grids() const;
 
   /// Every refused file so far, once each; grows at the end only.
@@ -62,7 +71,7 @@ class TerrainFolder {
   [[nodiscard]] std::size_t decoded_bytes() const { return decoded_bytes_; }
 
  private:
-  enum class Format : std::uint8_t { hgt, dted, extra };
+  enum class Format : std::uint8_t { hgt, dted, extra, sea };
 
   struct Entry {
     PostGrid grid;
@@ -79,6 +88,7 @@ class TerrainFolder {
   [[nodiscard]] static FileResult<PostGrid> described(const std::string& path, Format format,
                                                       TileReader* extra);
   void add_tile(const std::string& path, Format format);
+  void add_sea(const TileLocation& cell, int rows, int columns);
   [[nodiscard]] bool search(const std::string& folder, bool into_sub_folders);
   void choose(Entry& entry);
   void choose_decoded(Entry& entry);
@@ -89,6 +99,7 @@ class TerrainFolder {
   std::vector<Entry> entries_;
   std::vector<HeightTile> tiles_;
   std::vector<FileProblem> refused_;
+  int sea_count_ = 0, idle_sea_count_ = 0;
   std::size_t usable_count_ = 0;
   std::size_t mapped_bytes_ = 0;
   std::size_t decoded_bytes_ = 0;

@@ -16,8 +16,8 @@ struct BlockOrder {
 class BlockPort {
  public:
   virtual ~BlockPort() = default;
-  /// Orders that fit in now.
-  [[nodiscard]] virtual int room() const = 0;
+  /// Orders that fit in now. Ends a round of take().
+  [[nodiscard]] virtual int room() = 0;
   /// Orders one block. Domain: room() > 0.
   virtual void order(const BlockOrder& order) = 0;
   /// The next finished block, or null. A port for deterministic runs waits for every block ordered

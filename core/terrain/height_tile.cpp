@@ -1,5 +1,6 @@
 #include "core/terrain/height_tile.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -68,6 +69,9 @@ void read_posts(const HeightTile& tile, int row, int column, std::span<float> ou
     case TileLayout::float32_rows:
       at += sizeof(float) * (row_from_south * columns + first_column);
       std::memcpy(out.data(), at, out.size_bytes());
+      return;
+    case TileLayout::all_zero:
+      std::fill(out.begin(), out.end(), 0.0F);
       return;
   }
 }

@@ -36,6 +36,7 @@ enum class TileLayout : std::uint8_t {
   hgt_int16_be,  ///< rows from north to south, big-endian int16, -32768 void
   dted,          ///< records from west to east, posts from south to north, sign-magnitude
   float32_rows,  ///< rows from SOUTH to north, host float32, NaN void (decoded by a desktop reader)
+  all_zero,      ///< no bytes: stated sea, every post at 0 m
 };
 
 /// A view of one raw tile: georeference plus bytes that stay where they are (a mapped file).

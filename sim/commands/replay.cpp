@@ -15,6 +15,7 @@ struct ReplayArguments : SceneArguments {
   ReplayOptions replay;
   std::string profile = "field";
   std::string heading = "assume-true";
+  std::string arrival = "in-step";
 };
 
 int run_replay(ReplayArguments& arguments) {
@@ -23,6 +24,8 @@ int run_replay(ReplayArguments& arguments) {
   }
   ReplayOptions& options = arguments.replay;
   options.scene = arguments.scene;
+  options.scene.arrival = arguments.arrival == "as-ready" ? SceneOptions::Arrival::as_ready
+                                                          : SceneOptions::Arrival::in_step;
   options.bus.header_rule = arguments.profile == "strict" ? HeaderRule::strict : HeaderRule::field;
   options.heading_assumed = arguments.heading == "assume-true";
   options.bus.heading_reference = arguments.heading == "unknown" ? HeadingReference::unknown
@@ -51,6 +54,17 @@ void add_replay_command(CLI::App& program, int& status) {
   command->add_option("--frames", options.frames_folder, "folder for PNG pictures");
   command->add_option("--dump", options.dump_folder, "folder for dumps (contract, section 3)");
   command->add_option("--report", options.report_file, "JSON report");
+  command->add_option("--edit", arguments->scene.edit_file,
+                      "timed edits: posts that are replaced during the replay");
+  command
+      ->add_option("--arrival", arguments->arrival,
+                   "terrain arrives so many blocks a frame (repeatable), or when the disk is done")
+      ->check(CLI::IsMember({"in-step", "as-ready"}))
+      ->capture_default_str();
+  command
+      ->add_option("--delay-us", arguments->scene.read_delay_us,
+                   "wait before every block of terrain, as a slow disk would")
+      ->check(CLI::Range(0, 1'000'000));
   command->add_option("--profile", arguments->profile, "bus profile")
       ->check(CLI::IsMember({"strict", "field"}))
       ->capture_default_str();

@@ -9,6 +9,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
       ->required();
   command.add_option("--geoid", arguments.scene.geoid, "geoid file (.pgm, .gtx) or `none`")
       ->capture_default_str();
+  command.add_option("--coverage", arguments.scene.coverage_file,
+                     "list of cells that are sea where no tile is");
   command.add_option("--size", arguments.size, "picture size, WxH")->capture_default_str();
   command.add_option("--hfov", arguments.field_of_view_deg, "horizontal field of view, degrees")
       ->capture_default_str();

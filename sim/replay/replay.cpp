@@ -120,9 +120,7 @@ Outcome replay(const ReplayOptions& options) {
     std::fprintf(stderr, "ridgeline: %s\n", problem.c_str());
   }
   Session session;
-  SceneOptions scene = options.scene;
-  scene.arrival = SceneOptions::Arrival::in_step;
-  if (Outcome opened = session.open(scene, first_position(log, options.bus));
+  if (Outcome opened = session.open(options.scene, first_position(log, options.bus));
       !opened.ok()) {
     return opened;
   }

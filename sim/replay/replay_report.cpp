@@ -3,7 +3,11 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <numeric>
+#include <string>
 
 #include "platform/heap_counter.hpp"
 #include "sim/output/percentile.hpp"
@@ -11,12 +15,45 @@
 namespace ridgeline::sim {
 namespace {
 
+constexpr int rss_every = 100;  ///< frames
+
 constexpr const char* pass_names[pass_count] = {"grid", "ray_cast", "shade"};
 
 nlohmann::ordered_json percentiles(const std::vector<double>& values) {
   return {{"median", percentile(values, 0.5)},
           {"p99", percentile(values, 0.99)},
           {"max", percentile(values, 1.0)}};
+}
+
+/// Kilobytes of one line of /proc/self/status; 0 where there is none.
+long status_kib(const char* name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind(name, 0) == 0) return std::strtol(line.c_str() + std::strlen(name), nullptr, 10);
+  }
+  return 0;
+}
+
+nlohmann::ordered_json memory_json(int index) {
+  return {{"frame", index},
+          {"peak_rss_kib", status_kib("VmHWM:")},
+          {"anonymous_kib", status_kib("RssAnon:")},
+          {"file_kib", status_kib("RssFile:")}};
+}
+
+nlohmann::ordered_json window_json(const Session& session) {
+  const LevelSizes& sizes = session.window();
+  const PostLattice& lattice = session.lattice();
+  const double posts = static_cast<double>(sizes.posts());
+  return {{"levels", sizes.levels},
+          {"columns", sizes.columns()},
+          {"rows", sizes.rows()},
+          {"latitude_step_arcsec", 3600.0 * lattice.latitude_step_deg},
+          {"longitude_step_arcsec", 3600.0 * lattice.longitude_step_deg},
+          {"gpu_bytes", posts * gpu_bytes_per_post},
+          {"loader_bytes", session.loader_bytes()},
+          {"sea_cells", session.sea_cells()},
+          {"idle_sea_cells", session.idle_sea_cells()}};
 }
 
 nlohmann::ordered_json log_json(const CandumpLog& log) {
@@ -88,11 +125,46 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["nodes"] = report.nodes;
   frame["level_px"] = report.budget.level_px;
   frame["blocks_arrived"] = report.window.blocks_arrived;
+  frame["upload_ms"] = picture.take.upload_ms;
+  frame["wait_ms"] = picture.take.wait_ms;
   frames_.push_back(frame);
+  track_recovery(picture);
+  if (report.window.blocks_arrived > 0) upload_ms_.push_back(picture.take.upload_ms);
+  if (index % rss_every == 0) rss_.push_back(memory_json(index));
   if (removed) return;
+  if (first_terrain_ms_ < 0) first_terrain_ms_ = picture.since_start_ms;
+  if (report.availability.mode == Mode::svs && first_svs_ms_ < 0) {
+    first_svs_ms_ = picture.since_start_ms;
+  }
+  bounds_held_ += report.bound_px <= picture.wanted_px ? 1 : 0;
   cpu_ms_.push_back(picture.cpu_ms);
   gpu_ms_.push_back(gpu_ms);
   largest_bound_px_ = std::max(largest_bound_px_, report.bound_px);
+}
+
+/// A recovery runs from the first frame that shows less than it should, because terrain is still on
+/// its way, to the first that shows all of it again.
+void ReplayReport::track_recovery(const Picture& picture) {
+  const FrameReport& report = picture.report;
+  const bool placed = report.availability.mode != Mode::removed || report.window.known_posts > 0 ||
+                      report.window.blocks_arrived > 0;
+  const bool short_of =
+      placed && !report.window.complete &&
+      (report.bound_px > picture.wanted_px || report.availability.mode == Mode::removed ||
+       report.range_m < picture.wanted_range_m);
+  const double at_s = static_cast<double>(report.time_ns) * 1e-9;
+  if (short_of && !recovery_) recovery_ = Recovery{at_s, 0, 0};
+  if (!recovery_) return;
+  if (short_of) {
+    ++recovery_->frames;
+    recovery_->worst_px = std::max(recovery_->worst_px, report.bound_px);
+    return;
+  }
+  recoveries_.push_back({{"from_s", recovery_->from_s},
+                         {"seconds", at_s - recovery_->from_s},
+                         {"frames", recovery_->frames},
+                         {"worst_bound_px", recovery_->worst_px}});
+  recovery_.reset();
 }
 
 double ReplayReport::median_cpu_ms() const {
@@ -114,6 +186,14 @@ nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const Ownsh
   json["reason_counts"] = reasons_;
   json["cpu_ms"] = percentiles(cpu_ms_);
   json["gpu_ms"] = percentiles(gpu_ms_);
+  json["frames_within_error"] = bounds_held_;
+  json["first_terrain_ms"] = first_terrain_ms_;
+  json["first_svs_ms"] = first_svs_ms_;
+  json["recoveries"] = recoveries_;
+  json["upload_ms"] = percentiles(upload_ms_);
+  json["window"] = window_json(session);
+  json["blocks_loaded"] = session.blocks_loaded();
+  json["memory_samples"] = rss_;
   json["allocations_after_boot"] = heap_allocations_counted();
   json["heap_bytes"] = mallinfo2().uordblks + mallinfo2().hblkhd;
   json["gpu_bytes"] = gl_bytes_allocated();

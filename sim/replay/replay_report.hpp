@@ -1,5 +1,7 @@
 #pragma once
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/state/ownship_state.hpp"
 #include "sim/log/candump_reader.hpp"
@@ -20,11 +22,21 @@ class ReplayReport {
                                                 const std::string& log_file) const;
 
  private:
+  struct Recovery {
+    double from_s = 0, worst_px = 0;
+    int frames = 0;
+  };
+  void track_recovery(const Picture& picture);
+
   nlohmann::ordered_json frames_ = nlohmann::ordered_json::array();
-  std::vector<double> cpu_ms_, gpu_ms_;
+  nlohmann::ordered_json recoveries_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json rss_ = nlohmann::ordered_json::array();
+  std::vector<double> cpu_ms_, gpu_ms_, upload_ms_;
   std::map<std::string, int> reasons_;
+  std::optional<Recovery> recovery_;
   double largest_bound_px_ = 0;
-  int removed_ = 0, degraded_ = 0;
+  double first_terrain_ms_ = -1, first_svs_ms_ = -1;  ///< from the start of the program
+  int removed_ = 0, degraded_ = 0, bounds_held_ = 0;
 };
 
 }  // namespace ridgeline::sim

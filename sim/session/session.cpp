@@ -1,9 +1,12 @@
 #include "sim/session/session.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "platform/heap_counter.hpp"
+#include "sim/terrain_input/coverage_list.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -12,6 +15,8 @@ double now_ms() {
   const auto time = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double, std::milli>(time).count();
 }
+
+const double program_start_ms = now_ms();
 
 void print_shader_log(std::string_view program, std::string_view log) {
   std::fprintf(stderr, "shader %.*s: %.*s\n", static_cast<int>(program.size()), program.data(),
@@ -22,11 +27,32 @@ double lookup(const void* context, double latitude_deg, double longitude_deg) {
   return undulation_m(*static_cast<const GeoidGrid*>(context), latitude_deg, longitude_deg);
 }
 
+/// Whether the posts of an edit are posts of a tile of the same steps.
+bool same_posts(const PostGrid& edit, const PostGrid& tile) {
+  constexpr double same_step = 1e-6, same_post = 1e-3;
+  const auto equal = [](double a, double b) { return std::abs(a / b - 1.0) < same_step; };
+  if (!equal(edit.latitude_step_deg, tile.latitude_step_deg) ||
+      !equal(edit.longitude_step_deg, tile.longitude_step_deg)) {
+    return false;
+  }
+  const GeoBox box{edit.south_deg, edit.west_deg, edit.north_deg(), edit.east_deg()};
+  const double row = (edit.south_deg - tile.south_deg) / tile.latitude_step_deg;
+  const double column = (edit.west_deg - tile.west_deg) / tile.longitude_step_deg;
+  return overlaps(box, tile) && std::abs(row - std::round(row)) < same_post &&
+         std::abs(column - std::round(column)) < same_post;
+}
+
 }  // namespace
 
 Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first) {
   options_ = options;
-  auto folder = TerrainFolder::open(options.terrain_folder, &geotiff_);
+  std::vector<TileLocation> sea;
+  if (!options.coverage_file.empty()) {
+    auto list = coverage_list(options.coverage_file);
+    if (!list) return {list.problem().fault, list.problem().message};
+    sea = std::move(list).value();
+  }
+  auto folder = TerrainFolder::open(options.terrain_folder, &geotiff_, sea);
   if (!folder) return {folder.problem().fault, folder.problem().message};
   folder_ = std::move(folder).value();
   if (options.geoid != "none") {
@@ -41,6 +67,7 @@ Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first
   if (!folder_->any_usable()) {
     return {folder_->refused().front().fault, folder_->refused().front().message};
   }
+  if (Outcome opened = open_edits(); !opened.ok()) return opened;
   if (Outcome opened = open_renderer(); !opened.ok()) return opened;
   open_terrain(far_floor);
   return {};
@@ -57,6 +84,36 @@ Outcome Session::open_folder(const GeodeticPosition& first) {
   return {};
 }
 
+/// Reads the edits and checks that each has the posts of some tile.
+Outcome Session::open_edits() {
+  if (options_.edit_file.empty()) return {};
+  auto list = edit_list(options_.edit_file);
+  if (!list) return {list.problem().fault, list.problem().message};
+  edits_ = std::move(list).value();
+  const std::vector<PostGrid> tiles = folder_->grids();
+  for (const TerrainEdit& edit : edits_) {
+    const bool on_posts = std::any_of(tiles.begin(), tiles.end(), [&](const PostGrid& tile) {
+      return same_posts(edit.grid, tile);
+    });
+    if (!on_posts) {
+      return {Fault::file_malformed, options_.edit_file + ":" + std::to_string(edit.line) +
+                                         ": its posts are not those of any tile there"};
+    }
+    core_edits_.push_back({edit.grid, edit.heights_m});
+    edit_grids_.push_back(edit.grid);
+  }
+  return {};
+}
+
+void Session::apply_edits(double time_s) {
+  const std::size_t before = edits_applied_;
+  while (edits_applied_ < edits_.size() && edits_[edits_applied_].time_s <= time_s) {
+    ++edits_applied_;
+  }
+  if (edits_applied_ == before) return;
+  terrain_->edit(std::span(edit_grids_).subspan(before, edits_applied_ - before), *renderer_);
+}
+
 void Session::open_terrain(double far_floor) {
   const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
   options_.settings.geoid = geoid;
@@ -66,6 +123,7 @@ void Session::open_terrain(double far_floor) {
   worker_ = std::make_unique<BlockWorker>(
       *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival,
                                       options_.read_delay_us});
+  worker_->know_edits(core_edits_);
   held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
   finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
   terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_);
@@ -107,23 +165,33 @@ void Session::warm_up() {
   static_cast<void>(renderer_->read_counters());
 }
 
+void Session::settle_if_due(const FrameInput& input) {
+  const bool placed = input.availability.mode != Mode::removed && local_frame(input.eye).ok();
+  const bool always = options_.arrival == SceneOptions::Arrival::settled;
+  const bool never = options_.arrival == SceneOptions::Arrival::as_ready;
+  if (!placed || never || (settled_ && !always)) return;
+  terrain_->settle(input.eye, *renderer_);
+  settled_ = true;
+}
+
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
-  const bool placed = input.availability.mode != Mode::removed;
-  if (placed && options_.arrival != SceneOptions::Arrival::as_ready &&
-      (!settled_ || options_.arrival == SceneOptions::Arrival::settled)) {
-    if (local_frame(input.eye)) terrain_->settle(input.eye, *renderer_);
-    settled_ = true;
-  }
-  const double start_ms = now_ms();
+  double start_ms = 0;
   {
     const HeapSection after_boot;  // the frame path of the module; what follows is the desktop's
+    apply_edits(static_cast<double>(input.time_ns) * 1e-9);
+    settle_if_due(input);
+    start_ms = now_ms();
     picture.report = draw_frame(options_.settings, input, *terrain_, worker_->refused_count(),
                                 tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;
+  picture.since_start_ms = now_ms() - program_start_ms;
+  picture.take = worker_->last_take();
+  picture.wanted_px = options_.settings.error_px;
+  picture.wanted_range_m = options_.settings.range_m;
   if (!want_pixels) return picture;
   const auto pixels = text_.size();
   if (picture.report.availability.mode != Mode::removed) {

@@ -12,6 +12,7 @@
 #include "platform/terrain_folder.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
 #include "sim/output/outcome.hpp"
+#include "sim/terrain_input/edit_list.hpp"
 
 namespace ridgeline::sim {
 
@@ -19,6 +20,8 @@ namespace ridgeline::sim {
 struct SceneOptions {
   std::string terrain_folder;
   std::string geoid = "none";  ///< a PGM or GTX file, or `none`
+  std::string coverage_file;   ///< which missing tiles are sea; empty: none
+  std::string edit_file;       ///< terrain that changes during the run; empty: none
   FrameSettings settings;
   /// When terrain counts as there: `settled` before every picture (single views), `in_step` so many
   /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever
@@ -32,7 +35,11 @@ struct SceneOptions {
 struct Picture {
   FrameReport report;
   FrameCounts counts;
-  double cpu_ms = 0;           ///< wall time of draw_frame and of waiting for it
+  double cpu_ms = 0;          ///< wall time of draw_frame and of waiting for it
+  double since_start_ms = 0;  ///< from the start of the program to the end of this frame
+  BlockWorker::TakeTimes take;
+  double wanted_px = 0;  ///< the configured error bound and range
+  double wanted_range_m = 0;
   std::vector<float> range_m;  ///< empty in a removed frame
   std::vector<std::uint8_t> rgb;
 };
@@ -56,11 +63,20 @@ class Session {
   [[nodiscard]] const std::string& geoid_name() const { return geoid_.name(); }
   [[nodiscard]] double geoid_undulation_m(double latitude_deg, double longitude_deg) const;
   [[nodiscard]] std::size_t mapped_bytes() const { return worker_->mapped_bytes(); }
+  [[nodiscard]] std::uint64_t blocks_loaded() const { return worker_->blocks_taken(); }
+  [[nodiscard]] std::size_t loader_bytes() const { return worker_->buffer_bytes(); }
+  [[nodiscard]] const LevelSizes& window() const { return window_; }
+  [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
+  [[nodiscard]] int sea_cells() const { return folder_->sea_count(); }
+  [[nodiscard]] int idle_sea_cells() const { return folder_->idle_sea_count(); }
   [[nodiscard]] const char* driver() const { return surface_->description(); }
   [[nodiscard]] TerrainKeeper& terrain() { return *terrain_; }
 
  private:
   Outcome open_folder(const GeodeticPosition& first);
+  Outcome open_edits();
+  void apply_edits(double time_s);
+  void settle_if_due(const FrameInput& input);
   Outcome open_renderer();
   void open_terrain(double far_floor);
   void warm_up();
@@ -78,6 +94,10 @@ class Session {
   std::vector<HeldBlock> held_;
   std::vector<float> finest_posts_;
   std::optional<TerrainKeeper> terrain_;
+  std::vector<sim::TerrainEdit> edits_;
+  std::vector<ridgeline::TerrainEdit> core_edits_;
+  std::vector<PostGrid> edit_grids_;
+  std::size_t edits_applied_ = 0;
   bool settled_ = false;
   std::vector<PlaneRecord> planes_;
   std::vector<float> slopes_;
