@@ -7,13 +7,18 @@
 #include "platform/heap_counter.hpp"
 
 namespace ridgeline {
+namespace {
+
+constexpr int forget_after_blocks = 256;  ///< then the pages of raw tiles are let go
+
+}  // namespace
 
 BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
     : folder_(folder), settings_(settings) {
   const auto side = static_cast<std::size_t>(region_side(settings.levels - 1));
   posts_.resize(side * side);
   rows_.resize(static_cast<std::size_t>(row_scratch(settings.levels - 1)));
-  orders_.resize(slots);
+  jobs_.resize(slots);
   blocks_.resize(slots);
   thread_ = std::thread([this] { run(); });
 }
@@ -45,7 +50,7 @@ void BlockWorker::order(const BlockOrder& order) {
   {
     const std::lock_guard lock(queue_mutex_);
     RL_ASSERT(ordered_ - taken_ < slots - 1);
-    orders_[ordered_ % slots] = order;
+    jobs_[ordered_ % slots] = {order, focus_};
     ++ordered_;
   }
   work_.notify_one();
@@ -72,52 +77,60 @@ const TerrainBlock* BlockWorker::take() {
 void BlockWorker::focus(const GeoBox& box) {
   const std::lock_guard lock(queue_mutex_);
   focus_ = box;
-  focus_changed_ = true;
 }
 
 const TerrainBlock* BlockWorker::build(const BlockOrder& order) {
-  build_into(order, at_once_);
+  Job job{order, {}};
+  {
+    const std::lock_guard lock(queue_mutex_);
+    job.focus = focus_;
+  }
+  build_into(job, at_once_);
   return &at_once_;
 }
 
-void BlockWorker::build_into(const BlockOrder& order, TerrainBlock& block) {
+void BlockWorker::build_into(const Job& job, TerrainBlock& block) {
   const std::lock_guard lock(folder_mutex_);
-  GeoBox focus;
-  bool changed = false;
-  {
-    const std::lock_guard queue_lock(queue_mutex_);
-    std::swap(changed, focus_changed_);
-    focus = focus_;
-  }
-  if (changed) folder_.select(focus);
+  if (!(job.focus == selected_)) folder_.select(job.focus);
+  selected_ = job.focus;
+  const BlockOrder& order = job.order;
   const TerrainSource source{settings_.lattice, folder_.tiles(),
                              edits_.first(static_cast<std::size_t>(order.edits)), settings_.geoid};
   build_block(source, order.id, settings_.far_floor_m, {posts_, rows_}, block);
 }
 
 void BlockWorker::run() {
+  int since_forgotten = 0;
   for (;;) {
     std::uint64_t slot = 0;
-    BlockOrder order;
+    Job job;
     {
       std::unique_lock lock(queue_mutex_);
       work_.wait(lock, [this] { return stop_ || built_ < ordered_; });
       if (stop_) return;
       slot = built_ % slots;
-      order = orders_[slot];
+      job = jobs_[slot];
     }
     if (settings_.delay_us > 0) {
       std::this_thread::sleep_for(std::chrono::microseconds(settings_.delay_us));
     }
     {
       const HeapSection after_boot;
-      build_into(order, blocks_[slot]);
+      build_into(job, blocks_[slot]);
     }
+    bool idle = false;
     {
       const std::lock_guard lock(queue_mutex_);
       ++built_;
+      idle = built_ == ordered_;
     }
     done_.notify_one();
+    ++since_forgotten;
+    if (idle && since_forgotten >= forget_after_blocks) {
+      const std::lock_guard lock(folder_mutex_);
+      folder_.forget_pages();
+      since_forgotten = 0;
+    }
   }
 }
 
@@ -147,7 +160,7 @@ std::size_t BlockWorker::mapped_bytes() const {
 
 std::size_t BlockWorker::buffer_bytes() const {
   return sizeof(float) * (posts_.size() + rows_.size()) + blocks_.size() * sizeof(TerrainBlock) +
-         orders_.size() * sizeof(BlockOrder);
+         jobs_.size() * sizeof(Job);
 }
 
 namespace {
@@ -168,6 +181,19 @@ double lowest_sample_m(const HeightTile& tile) {
   return lowest;
 }
 
+/// The lowest post of a tile; NaN when none is known.
+double lowest_post_of_m(const HeightTile& tile) {
+  double lowest = std::nan("");
+  std::vector<float> row(static_cast<std::size_t>(tile.grid.columns));
+  for (int r = 0; r < tile.grid.rows; ++r) {
+    read_posts(tile, r, 0, row);
+    for (const float post : row) {
+      if (!std::isnan(post)) lowest = std::fmin(lowest, static_cast<double>(post));
+    }
+  }
+  return lowest;
+}
+
 }  // namespace
 
 double far_floor_m(TerrainFolder& folder, const GeoBox& near) {
@@ -176,7 +202,12 @@ double far_floor_m(TerrainFolder& folder, const GeoBox& near) {
     folder.select(box);
     double lowest = std::nan("");
     for (const HeightTile& tile : folder.tiles()) lowest = std::fmin(lowest, lowest_sample_m(tile));
-    if (!std::isnan(lowest)) return lowest + over_lowest_m;
+    if (std::isnan(lowest)) {  // a few posts between voids still count
+      for (const HeightTile& tile : folder.tiles()) {
+        lowest = std::fmin(lowest, lowest_post_of_m(tile));
+      }
+    }
+    if (!std::isnan(lowest)) return std::min(lowest + over_lowest_m, limits::max_terrain_height_m);
   }
   return over_lowest_m;
 }

@@ -67,14 +67,20 @@ class BlockWorker final : public BlockPort {
  private:
   static constexpr std::uint64_t slots = limits::blocks_in_flight + 1;  ///< one is the taker's
 
+  /// What is ordered, and the focus at that time: it may have moved on before the block is built.
+  struct Job {
+    BlockOrder order;
+    GeoBox focus;
+  };
+
   void run();
-  void build_into(const BlockOrder& order, TerrainBlock& block);
+  void build_into(const Job& job, TerrainBlock& block);
 
   TerrainFolder& folder_;
   Settings settings_;
   std::span<const TerrainEdit> edits_;
   std::vector<float> posts_, rows_;
-  std::vector<BlockOrder> orders_;
+  std::vector<Job> jobs_;
   std::vector<TerrainBlock> blocks_;
   TerrainBlock at_once_;
 
@@ -82,9 +88,10 @@ class BlockWorker final : public BlockPort {
   std::condition_variable work_, done_;
   std::uint64_t ordered_ = 0, built_ = 0, taken_ = 0;
   GeoBox focus_;
-  bool focus_changed_ = false, stop_ = false;
+  bool stop_ = false;
 
-  mutable std::mutex folder_mutex_;  ///< guards the folder and the scratch buffers
+  mutable std::mutex folder_mutex_;  ///< guards the folder, its selection, the scratch buffers
+  GeoBox selected_;
   std::size_t problems_told_ = 0;
 
   using Clock = std::chrono::steady_clock;  ///< the taker's thread alone uses what follows

@@ -31,6 +31,11 @@ void MappedFile::unmap() {
   bytes_ = {};
 }
 
+void MappedFile::forget_pages() const {
+  if (bytes_.empty()) return;
+  ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_DONTNEED);
+}
+
 Result<MappedFile> MappedFile::open(const char* path) {
   // O_NONBLOCK: opening a pipe that nobody writes to must not hang the program.
   const int descriptor = ::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);

@@ -27,6 +27,9 @@ class MappedFile {
   /// The bytes of the file; valid while this object lives and is not moved from.
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
+  /// Lets the pages read so far go; they come back from the file when they are read again.
+  void forget_pages() const;
+
  private:
   explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
   void unmap();

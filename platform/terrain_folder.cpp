@@ -219,6 +219,10 @@ bool TerrainFolder::select(const GeoBox& box) {
   return true;
 }
 
+void TerrainFolder::forget_pages() const {
+  for (const Entry& entry : entries_) entry.mapping.forget_pages();
+}
+
 std::vector<PostGrid> TerrainFolder::grids() const {
   std::vector<PostGrid> grids;
   for (const Entry& entry : entries_) {

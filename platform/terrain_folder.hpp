@@ -45,6 +45,9 @@ class TerrainFolder {
   ///         tile of the extra reader comes in or goes.
   bool select(const GeoBox& box);
 
+  /// Lets the memory of pages read so far go; tiles stay chosen.
+  void forget_pages() const;
+
   /// The tiles of the last select(), by south, then west, then name. Two files of the same cell are
   /// both here; the window decides between them.
   /// Owner: views this folder; valid until the next select().

@@ -202,12 +202,18 @@ Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
   const bool drawn = !near.empty() && column >= near.west && column < near.east &&
                      row >= near.south && row < near.north;
   if (drawn) return near_clearance(eye);
+  // Ground outside a block and one cell of its level round it may stand higher than the block says.
+  const double narrow = std::cos(std::min(std::abs(eye.latitude_deg) + 1.0, 90.0) * deg);
+  const double post_m = metres_per_degree *
+                        std::min(lattice_.latitude_step_deg, lattice_.longitude_step_deg * narrow);
+  double least = 0;
   for (int level = 1; level < levels_.sizes().levels; ++level) {
     const HeldBlock* block = levels_.find({level, column >> (6 + level), row >> (6 + level)});
     if (block == nullptr) continue;
     const double over = eye.height_m - static_cast<double>(block->facts.highest_m);
-    if (over > 0) return {Clearance::Kind::above, std::max(over, least_clearance_m)};
+    least = std::max(least, std::min(over, post_m * (1 << level)));
   }
+  if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m)};
   return {};
 }
 

@@ -75,6 +75,8 @@ class Builder {
   void settle_cell(int cx, int cy, Corners& low, Corners& high) const;
   void settle_post(int x, int y, float low, float high);
   [[nodiscard]] float highest_of_cell(int cx, int cy) const;
+  /// Lowest known true height of the block's own cells, their borders included.
+  [[nodiscard]] float lowest() const;
 
   int level_, step_, side_;
   std::span<const float> fine_;
@@ -176,13 +178,22 @@ void Builder::settle() {
   }
 }
 
+float Builder::lowest() const {
+  float lowest = -nothing;
+  for (int y = margin * step_; y <= (margin + block_posts) * step_; ++y) {
+    for (int x = margin * step_; x <= (margin + block_posts) * step_; ++x) {
+      if (!is_void(at(x, y))) lowest = std::min(lowest, at(x, y));
+    }
+  }
+  return lowest;  // settled posts lie between true ones
+}
+
 void Builder::measure(BlockFacts& facts) const {
-  facts.lowest_m = -nothing;
+  facts.lowest_m = lowest();
   for (int cy = margin; cy < margin + block_posts; ++cy) {
     for (int cx = margin; cx < margin + block_posts; ++cx) {
       const float own = post(cx, cy);
       ++(is_void(own) ? facts.void_posts : facts.known_posts);
-      if (!is_void(own)) facts.lowest_m = std::min(facts.lowest_m, own);
       if (level_ == 0) continue;
       const bool known = all_known(cx, cy), drawn = drawn_known(cx, cy);
       if (known != drawn || (!known && some_cell_known(cx, cy))) facts.mixed = true;

@@ -223,7 +223,11 @@ bool TerrainLevels::accept(const TerrainBlock& block) {
   if (place_of.asked && place_of.asked_id == id) place_of.asked = false;
   const Level& level = level_[static_cast<std::size_t>(id.level)];
   const Rect own{id.column, id.row, id.column + 1, id.row + 1};
-  if (intersection(own, level.target).empty()) return false;
+  if (intersection(own, level.target).empty()) {
+    // An older copy must not come back with the eye: the terrain may have changed since.
+    if (place_of.held && place_of.id == id) place_of.held = false;
+    return false;
+  }
   place_of.id = id;
   place_of.facts = block.facts;
   place_of.held = true;

@@ -71,7 +71,8 @@ class TerrainLevels {
   void follow(double eye_column, double eye_row);
   /// The next blocks to build, most urgent first, marked as asked for; how many.
   int next_wanted(std::span<BlockId> wanted);
-  /// Takes a built block. False when the window has no place for it any more.
+  /// Takes a built block. False when the window has no place for it any more; it then forgets an
+  /// older copy as well.
   bool accept(const TerrainBlock& block);
   /// A block that was asked for will not come: it may be wanted again.
   void release(const BlockId& id);

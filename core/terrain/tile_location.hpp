@@ -28,6 +28,8 @@ struct GeoBox {
   double west_deg = 0;
   double north_deg = 0;
   double east_deg = 0;
+
+  friend bool operator==(const GeoBox&, const GeoBox&) = default;
 };
 
 /// Whether the ground between the posts of `grid` meets the box; touching counts, because the posts

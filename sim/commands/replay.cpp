@@ -53,6 +53,8 @@ void add_replay_command(CLI::App& program, int& status) {
       ->check(within(0.0, longest_log_s));
   command->add_option("--frames", options.frames_folder, "folder for PNG pictures");
   command->add_option("--dump", options.dump_folder, "folder for dumps (contract, section 3)");
+  command->add_option("--dump-every", options.dump_every, "dump only every so manieth frame")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_option("--report", options.report_file, "JSON report");
   command->add_option("--edit", arguments->scene.edit_file,
                       "timed edits: posts that are replaced during the replay");

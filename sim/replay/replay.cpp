@@ -98,7 +98,7 @@ Outcome write_frame(const ReplayOptions& options, int index, const Picture& pict
         write_png(options.frames_folder + name, camera.width_px, camera.height_px, picture.rgb);
     if (!written.ok()) return written;
   }
-  if (options.dump_folder.empty()) return {};
+  if (options.dump_folder.empty() || index % options.dump_every != 0) return {};
   return write_dump(options.dump_folder, index, picture, session.geoid_name());
 }
 

@@ -17,6 +17,7 @@ struct ReplayOptions {
   double from_s = 0.0;
   std::optional<double> to_s;
   std::string frames_folder, dump_folder, report_file;  ///< empty: not written
+  int dump_every = 1;       ///< frames
 };
 
 /// Renders a log. The clock is the log's own time: frame k shows the moment

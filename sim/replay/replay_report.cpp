@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "platform/gl_counter.hpp"
 #include "platform/heap_counter.hpp"
 #include "sim/output/percentile.hpp"
 
@@ -195,6 +196,8 @@ nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const Ownsh
   json["blocks_loaded"] = session.blocks_loaded();
   json["memory_samples"] = rss_;
   json["allocations_after_boot"] = heap_allocations_counted();
+  json["gl_creations_after_boot"] = gl_creations_counted();
+  json["gl_creations"] = gl_creations_seen();
   json["heap_bytes"] = mallinfo2().uordblks + mallinfo2().hblkhd;
   json["gpu_bytes"] = gl_bytes_allocated();
   json["mapped_bytes"] = session.mapped_bytes();

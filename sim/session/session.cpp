@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "platform/gl_counter.hpp"
 #include "platform/heap_counter.hpp"
 #include "sim/terrain_input/coverage_list.hpp"
 
@@ -179,7 +180,8 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   const FrameTables tables{planes_, slopes_, text_};
   double start_ms = 0;
   {
-    const HeapSection after_boot;  // the frame path of the module; what follows is the desktop's
+    const HeapSection no_heap;  // the frame path of the module; what follows is the desktop's
+    const GlSection no_new_objects;
     apply_edits(static_cast<double>(input.time_ns) * 1e-9);
     settle_if_due(input);
     start_ms = now_ms();
