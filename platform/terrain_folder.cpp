@@ -231,6 +231,14 @@ std::vector<PostGrid> TerrainFolder::grids() const {
   return grids;
 }
 
+std::vector<PostGrid> TerrainFolder::sea_grids() const {
+  std::vector<PostGrid> grids;
+  for (const Entry& entry : entries_) {
+    if (entry.format == Format::sea) grids.push_back(entry.grid);
+  }
+  return grids;
+}
+
 void TerrainFolder::choose(Entry& entry) {
   if (entry.format == Format::extra) {
     choose_decoded(entry);

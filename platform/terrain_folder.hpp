@@ -60,6 +60,8 @@ class TerrainFolder {
 
   /// The post grids of all tiles found in files, in the same order, chosen or not.
   [[nodiscard]] std::vector<PostGrid> grids() const;
+  /// Those of the cells of stated sea.
+  [[nodiscard]] std::vector<PostGrid> sea_grids() const;
 
   /// Every refused file so far, once each; grows at the end only.
   [[nodiscard]] std::span<const FileProblem> refused() const { return refused_; }

@@ -155,7 +155,7 @@ Outcome run(const BenchOptions& options, const std::vector<BenchView>& views) {
   }
   session.draw(views.front().input, false);
   const double build_ms = process_cpu_ms() - before_ms;
-  const BenchJudge judge(options.scene.terrain_folder, options.scene.geoid);
+  const BenchJudge judge(options.scene);
   const std::vector<Method> methods = methods_of(options.scene.settings);
   std::vector<Measured> all(methods.size());
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/oracle/camera.hpp"
+#include "tests/oracle/coverage.hpp"
 #include "tests/oracle/judge.hpp"
 #include "tests/oracle/terrain.hpp"
 #include "tests/oracle/tracer.hpp"
@@ -46,9 +49,12 @@ struct BenchJudge::Truth {
   oracle::Terrain terrain;
 };
 
-BenchJudge::BenchJudge(const std::string& terrain_folder, const std::string& geoid)
-    : truth_(new Truth{oracle::Terrain::load(
-          terrain_folder, geoid == "none" ? oracle::Geoid() : oracle::Geoid::read(geoid), {})}) {}
+BenchJudge::BenchJudge(const SceneOptions& scene) {
+  oracle::Geoid geoid = scene.geoid == "none" ? oracle::Geoid() : oracle::Geoid::read(scene.geoid);
+  std::vector<oracle::DegreeCell> sea;
+  if (!scene.coverage_file.empty()) sea = oracle::read_coverage(scene.coverage_file);
+  truth_.reset(new Truth{oracle::Terrain::load(scene.terrain_folder, std::move(geoid), {}, sea)});
+}
 
 BenchJudge::~BenchJudge() = default;
 

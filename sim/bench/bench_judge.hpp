@@ -16,7 +16,9 @@ struct BenchError {
 /// The oracle over one terrain folder.
 class BenchJudge {
  public:
-  BenchJudge(const std::string& terrain_folder, const std::string& geoid);
+  /// With the folder, the geoid and the coverage list of the scene.
+  /// Errors: oracle::InputError naming the file.
+  explicit BenchJudge(const SceneOptions& scene);
   ~BenchJudge();
   BenchJudge(const BenchJudge&) = delete;
   BenchJudge& operator=(const BenchJudge&) = delete;

@@ -91,7 +91,9 @@ Outcome Session::open_edits() {
   auto list = edit_list(options_.edit_file);
   if (!list) return {list.problem().fault, list.problem().message};
   edits_ = std::move(list).value();
-  const std::vector<PostGrid> tiles = folder_->grids();
+  std::vector<PostGrid> tiles = folder_->grids();
+  const std::vector<PostGrid> sea = folder_->sea_grids();
+  tiles.insert(tiles.end(), sea.begin(), sea.end());
   for (const TerrainEdit& edit : edits_) {
     const bool on_posts = std::any_of(tiles.begin(), tiles.end(), [&](const PostGrid& tile) {
       return same_posts(edit.grid, tile);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "sim/synthetic/bus_log_writer.hpp"
@@ -69,20 +70,28 @@ std::string text_of(const std::string& path) {
   return text;
 }
 
-FlatScene::FlatScene() {
-  write_hgt(folder_.file("tiles/S46W073.hgt"), 1201, [](int, int) { return 100; });
+std::string level_flight(double latitude_deg, double longitude_deg, double heading_deg) {
+  constexpr double degree_rad = 3.14159265358979 / 180;
+  constexpr double metres_a_degree = 111'300;
+  const double north = std::cos(heading_deg * degree_rad);
+  const double east = std::sin(heading_deg * degree_rad) / std::cos(latitude_deg * degree_rad);
   std::vector<sim::FlightSample> flight;
   for (int k = 0; k < 2 * sim::flight_ticks_per_second; ++k) {
     sim::FlightSample sample;
     sample.time_s = static_cast<double>(k) / sim::flight_ticks_per_second;
-    sample.latitude_deg = -45.5;
-    sample.longitude_deg = -72.5 + 60 * sample.time_s / 78'000;
+    sample.latitude_deg = latitude_deg + 60 * sample.time_s * north / metres_a_degree;
+    sample.longitude_deg = longitude_deg + 60 * sample.time_s * east / metres_a_degree;
     sample.height_m = 700;
-    sample.heading_deg = sample.track_deg = 90;
+    sample.heading_deg = sample.track_deg = heading_deg;
     sample.ground_speed_mps = 60;
     flight.push_back(sample);
   }
-  write_text(log(), sim::bus_log(flight, {}));
+  return sim::bus_log(flight, {});
+}
+
+FlatScene::FlatScene() {
+  write_hgt(folder_.file("tiles/S46W073.hgt"), 1201, [](int, int) { return 100; });
+  write_text(log(), level_flight(-45.5, -72.5, 90));
 }
 
 std::vector<std::string> FlatScene::pose(const std::vector<std::string>& more) const {

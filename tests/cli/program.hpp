@@ -26,6 +26,10 @@ void expect_one_line(const Ended& ended, int status, const std::vector<std::stri
 void write_text(const std::string& path, const std::string& text);
 std::string text_of(const std::string& path);
 
+/// The bus log of 2 s of level flight at 700 m and 60 m/s from a place; its time begins at
+/// 1,700,000,000 s.
+std::string level_flight(double latitude_deg, double longitude_deg, double heading_deg);
+
 /// A folder with one small tile (flat, 100 m) and a log of 2 s of level flight over it.
 class FlatScene {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,15 +63,28 @@ std::vector<DegreeCell> read_coverage(const std::filesystem::path& file) {
   return cells;
 }
 
-Tile sea_tile(const DegreeCell& cell) {
+StepsPerDegree finest_steps(const std::vector<Grid>& grids) {
+  constexpr double most = 36000;
+  double lat = 0;
+  double lon = 0;
+  for (const Grid& grid : grids) {
+    lat = std::max(lat, std::min(most, std::round(1 / grid.lat_step_deg)));
+    lon = std::max(lon, std::min(most, std::round(1 / grid.lon_step_deg)));
+  }
+  if (lat < 1 || lon < 1) return {};
+  return {static_cast<int>(lat), static_cast<int>(lon)};
+}
+
+Tile sea_tile(const DegreeCell& cell, const StepsPerDegree& steps) {
   Tile tile;
   tile.name = "sea";
   tile.south_deg = cell.south_deg;
   tile.west_deg = cell.west_deg;
-  tile.lat_step_deg = tile.lon_step_deg = 1;
-  tile.rows = tile.columns = 2;
-  tile.posts.assign(4, 0.0F);
-  tile.is_sea = true;
+  tile.lat_step_deg = 1.0 / steps.lat;
+  tile.lon_step_deg = 1.0 / steps.lon;
+  tile.rows = steps.lat + 1;
+  tile.columns = steps.lon + 1;
+  tile.sea = Sheet<float>::bordered(tile.rows, tile.columns, 0.0F);
   return tile;
 }
 

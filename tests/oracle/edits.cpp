@@ -92,13 +92,13 @@ class EditLine {
     const std::size_t words = statement_.words.size() - words_before_heights;
     if (statement_.words[words_before_heights] == "fill") {
       if (words != 2) wrong("'fill' takes one height");
-      patch.posts.assign(posts, height(words_before_heights + 1));
+      const float all = height(words_before_heights + 1);
+      for (std::size_t i = 0; i < posts; ++i) patch.posts.push_back(all);
       return;
     }
     if (words != posts) {
       wrong("has " + std::to_string(words) + " heights instead of " + std::to_string(posts));
     }
-    patch.posts.reserve(posts);
     for (std::size_t i = 0; i < posts; ++i) {
       patch.posts.push_back(height(words_before_heights + i));
     }

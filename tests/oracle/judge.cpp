@@ -47,9 +47,8 @@ struct Judge::Search {
   ImagePoint smallest[3] = {};
   double nearest_m = infinity;
   double farthest_m = 0;
-  ImagePoint nearest;
-  ImagePoint farthest;
-  bool met_unknown = false;  ///< some ray passed unknown ground, so surfaces may end abruptly
+  std::vector<Sample> samples;  ///< every ray so far
+  bool met_unknown = false;     ///< some ray passed unknown ground, so surfaces may end abruptly
 
   [[nodiscard]] bool done() const { return proved[0] && proved[1] && proved[2]; }
   [[nodiscard]] double radius_px() const {
@@ -64,16 +63,11 @@ Judge::Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& fra
       camera_(frame),
       bound_px_(*frame.bound_px) {}
 
-void Judge::add(Search& search, const ImagePoint& offset) const {
+double Judge::add(Search& search, const ImagePoint& offset) const {
   const FirstHit hit = tracer_.first_hit(camera_.direction(search.centre + offset));
-  if (hit.distance_m < search.nearest_m) {
-    search.nearest_m = hit.distance_m;
-    search.nearest = offset;
-  }
-  if (hit.distance_m > search.farthest_m) {
-    search.farthest_m = hit.distance_m;
-    search.farthest = offset;
-  }
+  search.samples.push_back({offset, hit.distance_m});
+  search.nearest_m = std::min(search.nearest_m, hit.distance_m);
+  search.farthest_m = std::max(search.farthest_m, hit.distance_m);
   search.met_unknown = search.met_unknown || hit.may_be_unknown;
   const Claims claims = claims_of(search.z, hit, eta);
   const bool proves[3] = {claims.near, claims.far, claims.permitted};
@@ -84,6 +78,7 @@ void Judge::add(Search& search, const ImagePoint& offset) const {
     search.proved[i] = true;
     search.smallest[i] = offset;
   }
+  return hit.distance_m;
 }
 
 void Judge::search_small_crosses(Search& search) const {
@@ -109,14 +104,42 @@ void Judge::search_rings(Search& search, double from, double to, int rings, int 
 }
 
 void Judge::search_around_extremes(Search& search) const {
-  for (double step = 0.1 * bound_px_; step > 1e-3 * bound_px_ && !search.done(); step *= 0.5) {
-    for (int direction = 0; direction < 16 && !search.done(); ++direction) {
-      // Even turns go on from the nearest hit so far, odd ones from the farthest.
-      const int turn = direction / 2;
-      const ImagePoint start = direction % 2 == 0 ? search.nearest : search.farthest;
-      const ImagePoint offset = start + step * turned(search.down, 0.25 * pi * turn);
-      if (size_of(offset) < bound_px_) add(search, offset);
+  // A larger disc holds more hills and hollows, any of which may be the one that counts.
+  const auto starts = static_cast<std::size_t>(std::clamp(bound_px_, 2.0, 12.0));
+  for (const int claim : {0, 1}) {
+    std::vector<Sample> samples = search.samples;
+    std::stable_sort(samples.begin(), samples.end(), [&](const Sample& a, const Sample& b) {
+      return claim == 0 ? a.distance_m < b.distance_m : a.distance_m > b.distance_m;
+    });
+    std::vector<ImagePoint> tried;
+    for (const Sample& sample : samples) {
+      if (search.done() || search.proved[claim] || tried.size() == starts) break;
+      const bool is_new = std::all_of(tried.begin(), tried.end(), [&](const ImagePoint& other) {
+        return size_of(sample.offset + (-1.0) * other) > 0.15 * bound_px_;
+      });
+      if (!is_new) continue;
+      tried.push_back(sample.offset);
+      climb(search, sample, claim);
     }
+  }
+}
+
+void Judge::climb(Search& search, Sample best, int claim) const {
+  const double edge = bound_px_ * (1 - 1e-9);
+  int budget = 200;
+  for (double step = 0.1 * bound_px_; step > 1e-4 * bound_px_;) {
+    bool has_moved = false;
+    for (int turn = 0; turn < 8; ++turn) {
+      if (search.done() || search.proved[claim] || --budget < 0) return;
+      ImagePoint offset = best.offset + step * turned(search.down, 0.25 * pi * turn);
+      if (size_of(offset) > edge) offset = (edge / size_of(offset)) * offset;
+      const double distance_m = add(search, offset);
+      if (claim == 0 ? distance_m < best.distance_m : distance_m > best.distance_m) {
+        best = {offset, distance_m};
+        has_moved = true;
+      }
+    }
+    if (!has_moved) step *= 0.5;
   }
 }
 
@@ -245,6 +268,7 @@ void Judge::judge_soundness(int u, int v, Judgement& judgement) const {
   search.proved[2] = claims.permitted;
   search.met_unknown = judgement.centre.may_be_unknown;
   search.nearest_m = search.farthest_m = judgement.centre.distance_m;
+  search.samples.push_back({{0, 0}, judgement.centre.distance_m});
   search_small_crosses(search);
   bool excluded = false;
   bool grazing = false;

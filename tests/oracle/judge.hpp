@@ -36,9 +36,9 @@ struct Judgement {
 /// and the highest last, so only the lower and the upper arc matter, and along an arc the clearance
 /// over the terrain cannot change faster than the steepest slope allows. Halving the arc until each
 /// part either holds a hit or is too clear (or too deep) to hold one decides the claim. Where this
-/// argument does not apply (near the nadir, beside unknown ground) some 500 rays decide; where it
-/// ends within a thousandth of a pixel of the surface without a ray that proves the claim, the
-/// claim is undecided.
+/// argument does not apply (near the nadir, beside unknown ground) some 500 rays and climbs from
+/// the best of them to the nearest hills and hollows decide; where it ends within a thousandth of a
+/// pixel of the surface without a ray that proves the claim, the claim is undecided.
 ///
 /// A claim that fails, but holds with a disc larger by 0.2 % + 1e-4 px, with a slack of 1.02 eta,
 /// or with the end of the display range moved by eta, is undecided: the failure is within the
@@ -58,6 +58,11 @@ class Judge {
   [[nodiscard]] Judgement judge(int u, int v, const ImagePoint& offset) const;
 
  private:
+  /// One ray of a search.
+  struct Sample {
+    ImagePoint offset;
+    double distance_m = 0;
+  };
   struct Search;
   struct Arc;
   enum class ArcResult { proved, excluded, grazing, not_applicable };
@@ -66,11 +71,12 @@ class Judge {
   void search_small_crosses(Search& search) const;
   void search_rings(Search& search, double from, double to, int rings, int rays) const;
   void search_around_extremes(Search& search) const;
+  void climb(Search& search, Sample best, int claim) const;
   void refine_error(Search& search) const;
   [[nodiscard]] ArcResult search_arc(Search& search, bool upper) const;
   [[nodiscard]] ArcResult halve_arc(Search& search, bool upper, const Arc& arc) const;
   [[nodiscard]] bool holds_by_a_hair(const Search& search) const;
-  void add(Search& search, const ImagePoint& offset) const;
+  double add(Search& search, const ImagePoint& offset) const;
   [[nodiscard]] Verdict completeness(const ImagePoint& point, const FirstHit& hit) const;
   [[nodiscard]] bool is_between_neighbours(const ImagePoint& point, const FirstHit& hit) const;
 

@@ -1,6 +1,7 @@
 #include "tests/oracle/ray_path.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace ridgeline::oracle {
 namespace {
@@ -74,9 +75,29 @@ void append_monotone(const Quartic& polynomial, double value, double from, doubl
 
 }  // namespace
 
-double stretch_length_m(const Vec3& point) {
-  // The interpolation error falls with the fifth power of length over distance from the axis.
-  return std::clamp(0.004 * std::hypot(point.x, point.y), 1.0, 16000.0);
+AxisPassage::AxisPassage(const Vec3& eye, const Vec3& direction) {
+  const double across = std::hypot(direction.x, direction.y);
+  if (!(across > 0)) {
+    singular_m_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const double distance_m = std::abs(eye.x * direction.y - eye.y * direction.x) / across;
+  nearest_m_ = -(eye.x * direction.x + eye.y * direction.y) / (across * across);
+  singular_m_ = distance_m / across;
+}
+
+double AxisPassage::stretch_length_m(double from_m) const {
+  // The interpolation error falls with the fifth power of length over distance from the
+  // singularity; at this share of it the error is below 1e-12 of the distance.
+  constexpr double share = 0.012;
+  constexpr double longest_m = 16000;  // for the Earth's own curvature
+  return std::min(share * std::hypot(singular_m_, from_m - nearest_m_), longest_m);
+}
+
+double AxisPassage::past_axis_m(double from_m) const {
+  constexpr double through_m = 1e-3;
+  if (singular_m_ > through_m || std::abs(from_m - nearest_m_) > through_m) return from_m;
+  return nearest_m_ + through_m * (1 + 1e-6);
 }
 
 Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to_m,
@@ -87,10 +108,12 @@ Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to
   std::array<double, nodes> lat{};
   std::array<double, nodes> lon{};
   std::array<double, nodes> height{};
-  for (std::size_t k = 0; k < nodes; ++k) {
+  // The nodes run from the end to the beginning.
+  for (std::size_t k = nodes; k-- > 0;) {
     const Geodetic g = geodetic_from_ecef(eye + result.distance_m(chebyshev().s[k]) * direction);
     lat[k] = g.lat_deg;
     lon[k] = g.lon_deg + 360.0 * std::round((near_lon_deg - g.lon_deg) / 360.0);
+    near_lon_deg = lon[k];
     height[k] = g.height_m;
   }
   result.lat_deg = through(lat);

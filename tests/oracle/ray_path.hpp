@@ -38,16 +38,32 @@ struct Stretch {
   double middle_m = 0;
   double half_m = 0;
   Quartic lat_deg;
-  Quartic lon_deg;   ///< on the turn of the eye's longitude
+  Quartic lon_deg;   ///< continuous, so it may leave [-180, 180]
   Quartic height_m;  ///< above the ellipsoid
 
   [[nodiscard]] double distance_m(double s) const { return middle_m + s * half_m; }
 };
 
-/// The longest stretch, in m, that starts at a point and keeps the stated error.
-[[nodiscard]] double stretch_length_m(const Vec3& point);
+/// How a ray passes the Earth's axis. Longitude and latitude have their only singularity there; the
+/// closer it is, the shorter a stretch must be.
+class AxisPassage {
+ public:
+  AxisPassage(const Vec3& eye, const Vec3& direction);
 
-/// The stretch of the ray `eye + t direction` for t in [from_m, to_m].
+  /// The longest stretch, in m, that starts at a distance along the ray and keeps the stated error.
+  [[nodiscard]] double stretch_length_m(double from_m) const;
+
+  /// The same distance, or where the ray goes through the axis itself and the distance is within a
+  /// millimetre of it, the distance a millimetre behind it: between them all longitudes meet.
+  [[nodiscard]] double past_axis_m(double from_m) const;
+
+ private:
+  double nearest_m_ = 0;   ///< the distance along the ray at which it is nearest to the axis
+  double singular_m_ = 0;  ///< the singularity's distance from there, along the imaginary axis
+};
+
+/// The stretch of the ray `eye + t direction` for t in [from_m, to_m]. Its longitudes are
+/// continuous and begin on the turn of `near_lon_deg`.
 [[nodiscard]] Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to_m,
                               double near_lon_deg);
 

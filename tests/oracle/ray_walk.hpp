@@ -49,23 +49,32 @@ class RayWalk {
       : tracer_(tracer), direction_(direction), to_m_(to_m), visitor_(visitor) {}
 
   void run() {
-    double from_m = 0;
+    const AxisPassage axis(tracer_.eye(), direction_);
+    double lon_deg = tracer_.eye_lon_deg();
+    double from_m = axis.past_axis_m(0);
     while (from_m < to_m_) {
-      const Vec3 start = tracer_.eye() + from_m * direction_;
-      const double end_m = std::min(to_m_, from_m + stretch_length_m(start));
-      stretch_ = stretch(tracer_.eye(), direction_, from_m, end_m, tracer_.eye_lon_deg());
+      const double end_m = std::min(to_m_, from_m + axis.stretch_length_m(from_m));
+      stretch_ = stretch(tracer_.eye(), direction_, from_m, end_m, lon_deg);
+      lon_deg = stretch_.lon_deg.at(1);
       // A straight line's height over the ellipsoid is convex: once it rises it goes on rising.
       constexpr double margin_m = 250;  // more than any undulation of the geoid
       const double ceiling =
           std::max(tracer_.terrain().highest_post_m(), may_be_unknown_below_m) + margin_m;
       if (stretch_.height_m.slope(-1) >= 0 && stretch_.height_m.at(-1) > ceiling) return;
       if (walk_stretch()) return;
-      from_m = end_m;
+      from_m = axis.past_axis_m(end_m);
     }
   }
 
  private:
   using Cuts = std::vector<double>;
+
+  /// A tile with its edges on the turn of the ray.
+  struct Placed {
+    const Tracer::View* view;
+    double west_deg;
+    double east_deg;
+  };
 
   static void sort_cuts(Cuts& cuts, double from, double to) {
     cuts.push_back(from);
@@ -109,19 +118,19 @@ class RayWalk {
     const Range lon = range_of(stretch_.lon_deg, from, to);
     Cuts& cuts = tile_cuts_;
     cuts.clear();
-    candidates_.clear();
-    for (const Tracer::View& view : tracer_.views()) {
-      if (lat.high < view.south_deg || lat.low > view.north_deg || lon.high < view.west_deg ||
-          lon.low > view.east_deg) {
+    if (!is_gathered(lat, lon)) gather(lat, lon);
+    for (const Placed& placed : nearby_) {
+      const Tracer::View& view = *placed.view;
+      if (lat.high < view.south_deg || lat.low > view.north_deg || lon.high < placed.west_deg ||
+          lon.low > placed.east_deg) {
         continue;
       }
-      candidates_.push_back(&view);
       for (const double edge : {view.south_deg, view.north_deg}) {
         if (edge >= lat.low && edge <= lat.high) {
           append_crossings(stretch_.lat_deg, edge, from, to, cuts);
         }
       }
-      for (const double edge : {view.west_deg, view.east_deg}) {
+      for (const double edge : {placed.west_deg, placed.east_deg}) {
         if (edge >= lon.low && edge <= lon.high) {
           append_crossings(stretch_.lon_deg, edge, from, to, cuts);
         }
@@ -131,31 +140,56 @@ class RayWalk {
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (cuts[i + 1] <= cuts[i]) continue;
       const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
-      const Tracer::View* view = view_at(stretch_.lat_deg.at(middle), stretch_.lon_deg.at(middle));
-      if (view == nullptr) {
+      const Placed* placed = placed_at(stretch_.lat_deg.at(middle), stretch_.lon_deg.at(middle));
+      if (placed == nullptr) {
         walk_outside(cuts[i], cuts[i + 1]);
-      } else if (walk_tile(*view, cuts[i], cuts[i + 1])) {
+      } else if (walk_tile(*placed, cuts[i], cuts[i + 1])) {
         return true;
       }
     }
     return false;
   }
 
-  const Tracer::View* view_at(double lat, double lon) const {
-    for (const Tracer::View* view : candidates_) {
-      if (lat >= view->south_deg && lat <= view->north_deg && lon >= view->west_deg &&
-          lon <= view->east_deg) {
-        return view;
+  [[nodiscard]] bool is_gathered(const Range& lat, const Range& lon) const {
+    return lat.low >= gathered_lat_.low && lat.high <= gathered_lat_.high &&
+           lon.low >= gathered_lon_.low && lon.high <= gathered_lon_.high;
+  }
+
+  /// Collects the tiles round a place, finest first; a tile wider than a turn is placed twice.
+  void gather(const Range& lat, const Range& lon) {
+    constexpr double lat_margin_deg = 0.5;
+    const double highest_lat = std::min(std::max(std::abs(lat.low), std::abs(lat.high)), 88.0);
+    const double lon_margin_deg = lat_margin_deg / std::cos(highest_lat * degree_rad);
+    gathered_lat_ = {lat.low - lat_margin_deg, lat.high + lat_margin_deg};
+    gathered_lon_ = {lon.low - lon_margin_deg, lon.high + lon_margin_deg};
+    nearby_.clear();
+    for (const Tracer::View& view : tracer_.views()) {
+      if (gathered_lat_.high < view.south_deg || gathered_lat_.low > view.north_deg) continue;
+      const double last = std::floor((gathered_lon_.high - view.west_deg) / 360);
+      for (double turn = std::ceil((gathered_lon_.low - view.east_deg) / 360); turn <= last;
+           ++turn) {
+        nearby_.push_back({&view, shared_edge(view.west_deg + 360 * turn),
+                           shared_edge(view.east_deg + 360 * turn)});
+      }
+    }
+  }
+
+  const Placed* placed_at(double lat, double lon) const {
+    const double latitude = std::clamp(lat, -90.0, 90.0);  // a polynomial may overshoot the pole
+    for (const Placed& placed : nearby_) {
+      if (latitude >= placed.view->south_deg && latitude <= placed.view->north_deg &&
+          lon >= placed.west_deg && lon <= placed.east_deg) {
+        return &placed;
       }
     }
     return nullptr;
   }
 
-  bool walk_tile(const Tracer::View& view, double from, double to) {
-    tile_ = &view.entry->tile;
-    levels_ = &view.entry->levels;
-    x_ = stretch_.lon_deg.mapped(view.west_deg, 1 / tile_->lon_step_deg);
-    y_ = stretch_.lat_deg.mapped(view.south_deg, 1 / tile_->lat_step_deg);
+  bool walk_tile(const Placed& placed, double from, double to) {
+    tile_ = &placed.view->entry->tile;
+    levels_ = &placed.view->entry->levels;
+    x_ = stretch_.lon_deg.mapped(placed.west_deg, 1 / tile_->lon_step_deg);
+    y_ = stretch_.lat_deg.mapped(placed.view->south_deg, 1 / tile_->lat_step_deg);
     return walk_interval(from, to);
   }
 
@@ -241,16 +275,22 @@ class RayWalk {
     return false;
   }
 
-  /// The nearest tile of a file: stated sea has cells of a degree, which say nothing of the data
-  /// that is missing. Null where all is stated sea.
+  /// What brings a longitude to the turn closest to a tile.
+  static double turn_to(const Tracer::View& view, double lon) {
+    return 360 * std::round((0.5 * (view.west_deg + view.east_deg) - lon) / 360);
+  }
+
+  /// The nearest tile of a file: stated sea has the finest steps of the folder, which may not be
+  /// those of the data that is missing. Null where all is stated sea.
   const Tile* nearest_tile(double lat, double lon) const {
     const Tile* best = nullptr;
     double best_distance = std::numeric_limits<double>::infinity();
     for (const Tracer::View& view : tracer_.views()) {
-      if (view.entry->tile.is_sea) continue;
+      if (view.entry->tile.sea) continue;
       const double north = std::max({view.south_deg - lat, lat - view.north_deg, 0.0});
-      const double east =
-          std::max({view.west_deg - lon, lon - view.east_deg, 0.0}) * std::cos(lat * degree_rad);
+      const double turned = lon + turn_to(view, lon);
+      const double east = std::max({view.west_deg - turned, turned - view.east_deg, 0.0}) *
+                          std::cos(lat * degree_rad);
       const double distance = north * north + east * east;
       if (distance < best_distance) {
         best_distance = distance;
@@ -296,8 +336,10 @@ class RayWalk {
     const double lon_reach = 128 * tile.lon_step_deg;
     return std::any_of(
         tracer_.views().begin(), tracer_.views().end(), [&](const Tracer::View& view) {
+          const double turn = turn_to(view, 0.5 * (lon.low + lon.high));
           return lat.high > view.south_deg - lat_reach && lat.low < view.north_deg + lat_reach &&
-                 lon.high > view.west_deg - lon_reach && lon.low < view.east_deg + lon_reach;
+                 lon.high + turn > view.west_deg - lon_reach &&
+                 lon.low + turn < view.east_deg + lon_reach;
         });
   }
 
@@ -312,7 +354,9 @@ class RayWalk {
   double may_below_m_ = 0;
   const Tile* tile_ = nullptr;
   const std::vector<BlockLevel>* levels_ = nullptr;
-  std::vector<const Tracer::View*> candidates_;
+  std::vector<Placed> nearby_;  ///< the tiles that meet the gathered box
+  Range gathered_lat_{0, -1};
+  Range gathered_lon_{0, -1};
   Cuts geoid_cuts_;
   Cuts tile_cuts_;
   Cuts cell_cuts_;

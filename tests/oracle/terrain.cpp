@@ -15,8 +15,6 @@
 namespace ridgeline::oracle {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 bool same_steps(const Tile& a, const Tile& b) {
   return std::abs(a.lat_step_deg / b.lat_step_deg - 1) < 1e-9 &&
          std::abs(a.lon_step_deg / b.lon_step_deg - 1) < 1e-9;
@@ -58,8 +56,8 @@ void share_posts_of(Tile& a, Tile& b) {
       const int b_column = b_columns[static_cast<std::size_t>(column - columns.first)];
       if (b_column < 0) continue;
       const float height = taller(a.at(row, column), b.at(b_row, b_column));
-      a.at(row, column) = height;
-      b.at(b_row, b_column) = height;
+      a.set(row, column, height);
+      b.set(b_row, b_column, height);
     }
   }
 }
@@ -98,11 +96,11 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
 struct FolderTiles {
   std::vector<Tile> near;
   std::optional<Tile> elsewhere;  ///< some tile of a file that is not near
-  std::vector<Grid> grids;        ///< of every tile of a file
+  std::vector<Grid> grids;        ///< where a file has its posts, readable or not
   std::vector<Grid> far_grids;
   std::vector<std::string> refused;
   std::vector<DegreeCell> refused_cells;  ///< that their names name
-  float lowest_far_m = infinity;
+  double lowest_far_m = std::numeric_limits<double>::infinity();
 
   void add_file(const std::filesystem::path& file, const std::vector<Neighbourhood>& places) {
     std::optional<Tile> tile;
@@ -111,6 +109,7 @@ struct FolderTiles {
     } catch (const InputError& error) {
       refused.emplace_back(error.what());
       if (const auto cell = cell_in_name(file)) refused_cells.push_back(*cell);
+      if (const auto grid = grid_of_file(file)) grids.push_back(*grid);
     }
     if (!tile) return;
     grids.push_back(*tile);
@@ -119,9 +118,7 @@ struct FolderTiles {
       return;
     }
     far_grids.push_back(*tile);
-    for (const float post : tile->posts) {
-      lowest_far_m = std::isnan(post) ? lowest_far_m : std::min(lowest_far_m, post);
-    }
+    lowest_far_m = std::min(lowest_far_m, lowest_known_m(*tile));
     if (!elsewhere) elsewhere = std::move(tile);
   }
 
@@ -131,18 +128,28 @@ struct FolderTiles {
                        [&](const Grid& grid) { return reaches_into(grid, cell); });
   }
 
-  void add_sea(const DegreeCell& cell, const std::vector<Neighbourhood>& places) {
-    Tile tile = sea_tile(cell);
+  void add_sea(const DegreeCell& cell, const StepsPerDegree& steps,
+               const std::vector<Neighbourhood>& places) {
+    Tile tile = sea_tile(cell, steps);
     if (is_near(tile, places)) {
       near.push_back(std::move(tile));
     } else {
       far_grids.push_back(tile);
-      lowest_far_m = std::min(lowest_far_m, 0.0F);
+      lowest_far_m = std::min(lowest_far_m, 0.0);
     }
   }
 };
 
 }  // namespace
+
+double lowest_known_m(const Tile& tile) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tile.posts.size(); ++i) {
+    const float post = tile.posts[i];
+    if (!std::isnan(post)) lowest = std::min(lowest, static_cast<double>(post));
+  }
+  return lowest;
+}
 
 Terrain::Terrain(std::vector<Tile> tiles, Geoid geoid, double lowest_elsewhere_m)
     : geoid_(std::move(geoid)), lowest_elsewhere_m_(lowest_elsewhere_m) {
@@ -187,15 +194,16 @@ Terrain Terrain::load(const std::filesystem::path& folder, Geoid geoid,
   std::vector<DegreeCell> sea;
   std::copy_if(coverage.begin(), coverage.end(), std::back_inserter(sea),
                [&](const DegreeCell& cell) { return !all.has_file_for(cell); });
-  for (const DegreeCell& cell : sea) all.add_sea(cell, places);
+  const StepsPerDegree steps = finest_steps(all.grids);
+  for (const DegreeCell& cell : sea) all.add_sea(cell, steps, places);
   // Far from every tile all ground is unknown; some tile must still say how large its cells are.
-  const bool is_far_from_files =
-      std::all_of(all.near.begin(), all.near.end(), [](const Tile& tile) { return tile.is_sea; });
+  const bool is_far_from_files = std::all_of(all.near.begin(), all.near.end(),
+                                             [](const Tile& tile) { return tile.sea.has_value(); });
   if (is_far_from_files && all.elsewhere) all.near.push_back(std::move(*all.elsewhere));
-  if (all.near.empty() && !sea.empty()) all.near.push_back(sea_tile(sea.front()));
+  if (all.near.empty() && !sea.empty()) all.near.push_back(sea_tile(sea.front(), steps));
   if (all.near.empty() && !all.refused.empty()) throw InputError(all.refused.front());
   if (all.near.empty()) throw InputError(folder.string(), "folder holds no terrain tile");
-  Terrain terrain(std::move(all.near), std::move(geoid), static_cast<double>(all.lowest_far_m));
+  Terrain terrain(std::move(all.near), std::move(geoid), all.lowest_far_m);
   terrain.refused_ = std::move(all.refused);
   terrain.far_grids_ = std::move(all.far_grids);
   terrain.sea_cells_ = static_cast<int>(sea.size());

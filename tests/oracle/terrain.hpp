@@ -22,19 +22,9 @@ struct Block {
   bool has_unknown = false;  ///< some cell has a void post
 };
 
-/// Blocks of side `block_cells << level` cells, row 0 south. A block counts all posts of its cells,
-/// its north and east border included.
-struct BlockLevel {
-  int rows = 0;
-  int columns = 0;
-  std::vector<Block> blocks;
-
-  [[nodiscard]] std::size_t index(int row, int column) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
-  }
-  [[nodiscard]] const Block& at(int row, int column) const { return blocks[index(row, column)]; }
-};
+/// Blocks of side `block_cells << level` cells. A block counts all posts of its cells, its north
+/// and east border included.
+using BlockLevel = Sheet<Block>;
 
 struct TerrainTile {
   Tile tile;
@@ -66,8 +56,8 @@ struct ReplacedPosts {
 ///   taller height is the truth, and a post that either of them knows is known.
 /// - Tiles of different steps share the posts that coincide on a common edge. Where they overlap in
 ///   area the finer one is the truth, its voids included.
-/// - A cell of the coverage list that no file reaches into is a tile with a post of 0 m at each
-///   corner. It shares posts like any other tile.
+/// - A cell of the coverage list that no file reaches into is a tile of posts of 0 m, with the
+///   finest steps of the files. It shares posts like any other tile.
 /// - Replaced posts are the truth in every tile that has a post there, without a look at what they
 ///   replace or at what another tile says.
 /// - Nothing else fills a void.
@@ -83,7 +73,8 @@ class Terrain {
   /// terrain. A tile that cannot be read is a missing tile: unknown ground, named by refused().
   /// A cell of `coverage` is sea unless a file reaches into it, or a refused file's name names it.
   /// Errors: InputError naming the folder, also where none of its tiles can be read.
-  /// Cost:   reads every file; memory 4 bytes a post of the tiles kept.
+  /// Cost:   reads every file; memory 2 bytes a post of the tiles kept, 4 where heights are not
+  ///         whole metres; of a cell of sea, 4 bytes a post of its border.
   [[nodiscard]] static Terrain load(const std::filesystem::path& folder, Geoid geoid,
                                     const std::vector<Neighbourhood>& places,
                                     const std::vector<DegreeCell>& coverage = {});
@@ -138,5 +129,8 @@ class Terrain {
   double highest_post_m_ = 0;
   double steepest_ = 0;
 };
+
+/// The lowest known post of a tile of a file or an edit; +inf without one.
+[[nodiscard]] double lowest_known_m(const Tile& tile);
 
 }  // namespace ridgeline::oracle

@@ -78,9 +78,8 @@ ReplacedPosts Terrain::replace(const Tile& patch) {
       for (std::size_t r = 0; r < rows.size(); ++r) {
         for (std::size_t c = 0; c < columns.size(); ++c) {
           if (rows[r] < 0 || columns[c] < 0) continue;
-          float& post = tile.at(rows[r], columns[c]);
-          replaced.posts.push_back({index, rows[r], columns[c], post});
-          post = patch.at(static_cast<int>(r), static_cast<int>(c));
+          replaced.posts.push_back({index, rows[r], columns[c], tile.at(rows[r], columns[c])});
+          tile.set(rows[r], columns[c], patch.at(static_cast<int>(r), static_cast<int>(c)));
         }
       }
     }
@@ -89,9 +88,7 @@ ReplacedPosts Terrain::replace(const Tile& patch) {
   // only lower what must be unknown.
   if (std::any_of(far_grids_.begin(), far_grids_.end(),
                   [&](const Grid& grid) { return shares_posts(grid, patch); })) {
-    for (const float post : patch.posts) {
-      if (!std::isnan(post)) lowest_elsewhere_m_ = std::min<double>(lowest_elsewhere_m_, post);
-    }
+    lowest_elsewhere_m_ = std::min(lowest_elsewhere_m_, lowest_known_m(patch));
   }
   summarise_changed(replaced.posts);
   return replaced;
@@ -100,7 +97,7 @@ ReplacedPosts Terrain::replace(const Tile& patch) {
 void Terrain::put_back(const ReplacedPosts& replaced) {
   // Backwards, because a post may have been replaced twice.
   for (auto post = replaced.posts.rbegin(); post != replaced.posts.rend(); ++post) {
-    tiles_[post->tile].tile.at(post->row, post->column) = post->height_m;
+    tiles_[post->tile].tile.set(post->row, post->column, post->height_m);
   }
   lowest_elsewhere_m_ = replaced.lowest_elsewhere_m;
   summarise_changed(replaced.posts);

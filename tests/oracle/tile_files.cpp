@@ -83,6 +83,54 @@ Tile dted_header(const std::string& file, const Bytes& bytes) {
   return tile;
 }
 
+std::size_t dted_record_bytes(const Tile& tile) {
+  return 8 + 2 * static_cast<std::size_t>(tile.rows) + 4;
+}
+
+/// The tile of a DTED file, its posts still to be read.
+Tile dted_without_posts(const std::filesystem::path& file, const Bytes& bytes) {
+  Tile tile = dted_header(file.string(), bytes);
+  tile.name = file.filename().string();
+  if (tile.west_deg >= 180) tile.west_deg -= 360;
+  const std::optional<DegreeCell> named = cell_in_name(file);
+  if (named && (named->south_deg != tile.south_deg || named->west_deg != tile.west_deg)) {
+    throw InputError(file.string(), "DTED header is that of another cell");
+  }
+  if (bytes.size() < 3428 + static_cast<std::size_t>(tile.columns) * dted_record_bytes(tile)) {
+    throw InputError(file.string(), "shorter than its DTED header says");
+  }
+  return tile;
+}
+
+/// The tile of an .hgt file, its posts still to be read.
+Tile hgt_without_posts(const std::filesystem::path& file) {
+  const std::optional<DegreeCell> corner = cell_in_name(file);
+  if (!corner) throw InputError(file.string(), "name does not say which tile it is");
+  std::error_code fault;
+  const std::uintmax_t size = std::filesystem::file_size(file, fault);
+  if (fault) throw InputError(file.string(), "cannot be opened");
+  Tile tile;
+  tile.name = file.filename().string();
+  for (const std::size_t side : {1201U, 3601U, 10801U}) {
+    if (size == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
+  }
+  if (tile.rows == 0) {
+    throw InputError(file.string(), "size is not 1201, 3601 or 10801 posts squared");
+  }
+  tile.south_deg = corner->south_deg;
+  tile.west_deg = corner->west_deg;
+  tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
+  return tile;
+}
+
+bool is_dted(const std::string& extension) {
+  return extension == ".dt0" || extension == ".dt1" || extension == ".dt2";
+}
+
+bool is_geotiff(const std::string& extension) {
+  return extension == ".tif" || extension == ".tiff";
+}
+
 }  // namespace
 
 std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file) {
@@ -104,26 +152,18 @@ std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file) {
 }
 
 Tile read_hgt(const std::filesystem::path& file) {
-  const std::optional<DegreeCell> corner = cell_in_name(file);
-  if (!corner) throw InputError(file.string(), "name does not say which tile it is");
-  const Bytes bytes = file_bytes(file);
-  Tile tile;
-  tile.name = file.filename().string();
-  for (const std::size_t side : {1201U, 3601U, 10801U}) {
-    if (bytes.size() == 2 * side * side) tile.rows = tile.columns = static_cast<int>(side);
-  }
-  if (tile.rows == 0) {
-    throw InputError(file.string(), "size is not 1201, 3601 or 10801 posts squared");
-  }
-  tile.south_deg = corner->south_deg;
-  tile.west_deg = corner->west_deg;
-  tile.lat_step_deg = tile.lon_step_deg = 1.0 / (tile.rows - 1);
-  tile.posts.resize(bytes.size() / 2);
-  std::size_t from = 0;
+  Tile tile = hgt_without_posts(file);
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string(), "cannot be opened");
+  tile.posts.resize(tile.index(tile.rows, 0));
+  Bytes bytes(2 * static_cast<std::size_t>(tile.columns));
   for (int row = tile.rows - 1; row >= 0; --row) {
-    for (int column = 0; column < tile.columns; ++column, from += 2) {
-      const auto value = static_cast<std::int16_t>(big_endian_16(bytes, from));
-      tile.at(row, column) = value == -32768 ? void_post : static_cast<float>(value);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) throw InputError(file.string(), "cannot be read");
+    for (int column = 0; column < tile.columns; ++column) {
+      const unsigned raw = big_endian_16(bytes, 2 * static_cast<std::size_t>(column));
+      const auto value = static_cast<std::int16_t>(raw);
+      tile.set(row, column, value == -32768 ? void_post : static_cast<float>(value));
     }
   }
   return tile;
@@ -131,20 +171,9 @@ Tile read_hgt(const std::filesystem::path& file) {
 
 Tile read_dted(const std::filesystem::path& file) {
   const Bytes bytes = file_bytes(file);
-  Tile tile = dted_header(file.string(), bytes);
-  tile.name = file.filename().string();
-  if (tile.west_deg >= 180) tile.west_deg -= 360;
-  const std::optional<DegreeCell> named = cell_in_name(file);
-  if (named && (named->south_deg != tile.south_deg || named->west_deg != tile.west_deg)) {
-    throw InputError(file.string(), "DTED header is that of another cell");
-  }
-  const auto rows = static_cast<std::size_t>(tile.rows);
-  const auto columns = static_cast<std::size_t>(tile.columns);
-  const std::size_t record = 8 + 2 * rows + 4;
-  if (bytes.size() < 3428 + columns * record) {
-    throw InputError(file.string(), "shorter than its DTED header says");
-  }
-  tile.posts.resize(rows * columns);
+  Tile tile = dted_without_posts(file, bytes);
+  const std::size_t record = dted_record_bytes(tile);
+  tile.posts.resize(tile.index(tile.rows, 0));
   for (int column = 0; column < tile.columns; ++column) {
     const std::size_t start = 3428 + static_cast<std::size_t>(column) * record;
     if (bytes[start] != 0xAA) throw InputError(file.string(), "DTED record without its sentinel");
@@ -157,7 +186,7 @@ Tile read_dted(const std::filesystem::path& file) {
       const unsigned raw = big_endian_16(bytes, start + 8 + 2 * static_cast<std::size_t>(row));
       const int magnitude = static_cast<int>(raw & 0x7FFFU);
       const int value = (raw & 0x8000U) != 0 ? -magnitude : magnitude;
-      tile.at(row, column) = value == -32767 ? void_post : static_cast<float>(value);
+      tile.set(row, column, value == -32767 ? void_post : static_cast<float>(value));
     }
   }
   return tile;
@@ -166,8 +195,20 @@ Tile read_dted(const std::filesystem::path& file) {
 std::optional<Tile> read_tile(const std::filesystem::path& file) {
   const std::string extension = lower(file.extension().string());
   if (extension == ".hgt") return read_hgt(file);
-  if (extension == ".dt0" || extension == ".dt1" || extension == ".dt2") return read_dted(file);
-  if (extension == ".tif" || extension == ".tiff") return read_geotiff(file);
+  if (is_dted(extension)) return read_dted(file);
+  if (is_geotiff(extension)) return read_geotiff(file);
+  return std::nullopt;
+}
+
+std::optional<Grid> grid_of_file(const std::filesystem::path& file) {
+  const std::string extension = lower(file.extension().string());
+  try {
+    if (extension == ".hgt") return hgt_without_posts(file);
+    if (is_dted(extension)) return dted_without_posts(file, file_bytes(file));
+    if (is_geotiff(extension)) return geotiff_grid(file);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
   return std::nullopt;
 }
 

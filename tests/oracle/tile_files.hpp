@@ -15,6 +15,10 @@ namespace ridgeline::oracle {
 /// Errors: InputError naming the file.
 [[nodiscard]] std::optional<Tile> read_tile(const std::filesystem::path& file);
 
+/// Where a terrain file has its posts, as its size or header says, even though its posts cannot be
+/// read; nothing where that is not known.
+[[nodiscard]] std::optional<Grid> grid_of_file(const std::filesystem::path& file);
+
 /// SRTM `.hgt`: 1201, 3601 or 10801 posts a side, rows from the north, big-endian, -32768 void;
 /// the name gives the south-west corner.
 [[nodiscard]] Tile read_hgt(const std::filesystem::path& file);
@@ -30,5 +34,7 @@ namespace ridgeline::oracle {
 /// exact multiples of the step where they lie within a thousandth of a step of one.
 /// Errors: InputError, also for projected or rotated rasters.
 [[nodiscard]] Tile read_geotiff(const std::filesystem::path& file);
+/// The same without its posts.
+[[nodiscard]] Grid geotiff_grid(const std::filesystem::path& file);
 
 }  // namespace ridgeline::oracle

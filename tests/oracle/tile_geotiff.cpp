@@ -51,50 +51,21 @@ void require_geographic(const std::string& file, GDALDatasetH dataset) {
   }
 }
 
-void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
-  const auto count = static_cast<std::size_t>(tile.rows) * static_cast<std::size_t>(tile.columns);
-  std::vector<double> values(count);
-  if (GDALRasterIO(band, GF_Read, 0, 0, tile.columns, tile.rows, values.data(), tile.columns,
-                   tile.rows, GDT_Float64, 0, 0) != CE_None) {
-    throw InputError(file, "raster cannot be decoded");
-  }
-  int has_no_data = 0;
-  const double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
-  const double scale = GDALGetRasterScale(band, nullptr);
-  const double offset = GDALGetRasterOffset(band, nullptr);
-  const bool is_int16 = GDALGetRasterDataType(band) == GDT_Int16;
-  tile.posts.resize(count);
-  for (int row = 0; row < tile.rows; ++row) {
-    for (int column = 0; column < tile.columns; ++column) {
-      const double value = values[static_cast<std::size_t>(tile.rows - 1 - row) *
-                                      static_cast<std::size_t>(tile.columns) +
-                                  static_cast<std::size_t>(column)];
-      // The two customary voids of 16-bit terrain hold even where a file forgets to declare one.
-      const bool is_void = (has_no_data != 0 && value == no_data) || !std::isfinite(value) ||
-                           (is_int16 && value <= -32767);
-      tile.at(row, column) = is_void ? void_post : static_cast<float>(value * scale + offset);
-    }
-  }
-}
-
-}  // namespace
-
-Tile read_geotiff(const std::filesystem::path& path) {
+Tile without_posts(const std::filesystem::path& path, GDALDatasetH dataset) {
   const std::string file = path.string();
-  const Dataset dataset = open_raster(file);
   double transform[6] = {};
-  if (GDALGetGeoTransform(dataset.get(), transform) != CE_None) {
+  if (GDALGetGeoTransform(dataset, transform) != CE_None) {
     throw InputError(file, "raster has no georeference");
   }
-  require_geographic(file, dataset.get());
+  require_geographic(file, dataset);
   if (transform[2] != 0 || transform[4] != 0 || transform[1] <= 0 || transform[5] >= 0) {
     throw InputError(file, "raster is not north up");
   }
   Tile tile;
   tile.name = path.filename().string();
-  tile.columns = GDALGetRasterXSize(dataset.get());
-  tile.rows = GDALGetRasterYSize(dataset.get());
-  if (tile.rows < 2 || tile.columns < 2 || GDALGetRasterCount(dataset.get()) < 1) {
+  tile.columns = GDALGetRasterXSize(dataset);
+  tile.rows = GDALGetRasterYSize(dataset);
+  if (tile.rows < 2 || tile.columns < 2 || GDALGetRasterCount(dataset) < 1) {
     throw InputError(file, "raster has no cell");
   }
   tile.lon_step_deg = snapped_step(transform[1]);
@@ -104,8 +75,44 @@ Tile read_geotiff(const std::filesystem::path& path) {
   tile.west_deg = snapped_origin(west, tile.lon_step_deg);
   tile.south_deg = snapped_origin(south, tile.lat_step_deg);
   if (tile.west_deg >= 180) tile.west_deg -= 360;
-  read_posts(file, GDALGetRasterBand(dataset.get(), 1), tile);
   return tile;
+}
+
+void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
+  int has_no_data = 0;
+  const double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
+  const double scale = GDALGetRasterScale(band, nullptr);
+  const double offset = GDALGetRasterOffset(band, nullptr);
+  const bool is_int16 = GDALGetRasterDataType(band) == GDT_Int16;
+  std::vector<double> values(static_cast<std::size_t>(tile.columns));
+  tile.posts.resize(values.size() * static_cast<std::size_t>(tile.rows));
+  for (int row = tile.rows - 1; row >= 0; --row) {
+    if (GDALRasterIO(band, GF_Read, 0, tile.rows - 1 - row, tile.columns, 1, values.data(),
+                     tile.columns, 1, GDT_Float64, 0, 0) != CE_None) {
+      throw InputError(file, "raster cannot be decoded");
+    }
+    for (int column = 0; column < tile.columns; ++column) {
+      const double value = values[static_cast<std::size_t>(column)];
+      // The two customary voids of 16-bit terrain hold even where a file forgets to declare one.
+      const bool is_void = (has_no_data != 0 && value == no_data) || !std::isfinite(value) ||
+                           (is_int16 && value <= -32767);
+      tile.set(row, column, is_void ? void_post : static_cast<float>(value * scale + offset));
+    }
+  }
+}
+
+}  // namespace
+
+Tile read_geotiff(const std::filesystem::path& path) {
+  const Dataset dataset = open_raster(path.string());
+  Tile tile = without_posts(path, dataset.get());
+  read_posts(path.string(), GDALGetRasterBand(dataset.get(), 1), tile);
+  return tile;
+}
+
+Grid geotiff_grid(const std::filesystem::path& path) {
+  const Dataset dataset = open_raster(path.string());
+  return without_posts(path, dataset.get());
 }
 
 }  // namespace ridgeline::oracle

@@ -191,12 +191,11 @@ struct ClearanceVisitor {
   }
 };
 
-/// An edge to the microsecond of arc, so that the edges of neighbouring tiles are the same number.
+}  // namespace
+
 double shared_edge(double degrees) {
   return std::round(degrees * 3.6e9) / 3.6e9;
 }
-
-}  // namespace
 
 Tracer::Tracer(const Terrain& terrain, const Geodetic& eye, double range_m, Walk walk)
     : terrain_(&terrain),
@@ -206,10 +205,8 @@ Tracer::Tracer(const Terrain& terrain, const Geodetic& eye, double range_m, Walk
       walk_(walk) {
   for (const TerrainTile& entry : terrain.tiles()) {
     const Tile& tile = entry.tile;
-    const double west = west_on_turn(tile, eye.lon_deg);
     views_.push_back({&entry, shared_edge(tile.south_deg), shared_edge(tile.north_deg()),
-                      shared_edge(west),
-                      shared_edge(west + (tile.columns - 1) * tile.lon_step_deg)});
+                      shared_edge(tile.west_deg), shared_edge(tile.east_deg())});
   }
 }
 

@@ -29,6 +29,8 @@ enum class Walk { accelerated, every_cell };
 /// A ray is cut into stretches, at the lines of the geoid grid, at the edges of tiles and at the
 /// lines of posts; between two cuts the surface is one bilinear patch and the ray one polynomial,
 /// so the first root of their difference is found in closed intervals, tangencies included.
+/// Towards a pole the stretches become shorter. A ray through the pole itself is walked up to 1 mm
+/// before it and from 1 mm behind it.
 /// A location in two overlapping tiles belongs to the finer one. Where there is no tile the cells
 /// are unknown, with the steps of the nearest tile.
 /// Owner:  views `terrain`, which must outlive it. Safe to use from several threads.
@@ -49,7 +51,7 @@ class Tracer {
   [[nodiscard]] const Vec3& eye() const { return eye_; }
   [[nodiscard]] double range_m() const { return range_m_; }
 
-  /// A tile with its west edge on the turn of the eye's longitude.
+  /// A tile and its edges, which are the same numbers as those of the tiles beside it.
   struct View {
     const TerrainTile* entry = nullptr;
     double south_deg = 0;
@@ -70,5 +72,8 @@ class Tracer {
   Walk walk_;
   std::vector<View> views_;
 };
+
+/// An edge to the microsecond of arc, so that the edges of neighbouring tiles are the same number.
+[[nodiscard]] double shared_edge(double degrees);
 
 }  // namespace ridgeline::oracle

@@ -61,7 +61,8 @@ TEST_F(Edits, are_read_in_order_of_time_then_line) {
                       "20 -90 -180 3 0.3333333333 1 1 fill void\n"));
   ASSERT_EQ(edits.size(), 3U);
   EXPECT_EQ(edits[0].time_s, 10.5);
-  EXPECT_EQ(edits[0].patch.posts, std::vector<float>(5000, -12.0F));
+  ASSERT_EQ(edits[0].patch.posts.size(), 5000U);
+  for (std::size_t i = 0; i < 5000; ++i) ASSERT_EQ(edits[0].patch.posts[i], -12);
   EXPECT_EQ(edits[1].line, 2);
   EXPECT_EQ(edits[1].patch.rows, 2);
   EXPECT_EQ(edits[1].patch.at(0, 2), 3);
@@ -163,18 +164,25 @@ TEST_F(Edits, replace_without_the_rule_of_the_taller_in_every_tile_that_has_the_
 }
 
 TEST_F(Edits, reach_stated_sea_and_turn_it_unknown) {
-  Terrain terrain(
-      {scenes::tile(46, 8, 1200, 1200, [](double, double) { return 5.0; }), sea_tile({46, 9})},
-      Geoid());
-  TimedEdits edits = timed("5 46 9 3600 3600 1 2 void 0\n", terrain);
-  EXPECT_NEAR(ground_m(terrain, 46.5, 9.999), 0, 1e-1);
+  Terrain terrain({scenes::tile(46, 8, 1200, 1200, [](double, double) { return 5.0; }),
+                   sea_tile({46, 9}, {1200, 1200})},
+                  Geoid());
+  TimedEdits edits = timed(
+      "5 46.5 9.5 3 3 1 1 void\n"
+      "5 46.2 9 3 3 1 2 70 90\n",
+      terrain);
+  EXPECT_NEAR(ground_m(terrain, 46.5001, 9.5001), 0, 1e-6);
   edits.advance_to(5);
   const FirstHit hit =
-      Tracer(terrain, {46.5, 9.5, 1000}, 2000).first_hit(level_frame(46.5, 9.5).down);
+      Tracer(terrain, {46.5001, 9.5001, 1000}, 2000).first_hit(level_frame(46.5001, 9.5001).down);
   EXPECT_TRUE(hit.is_sky());
   EXPECT_TRUE(hit.must_be_unknown);
-  // The finer tile has a post at that corner, too.
-  EXPECT_TRUE(std::isnan(terrain.tiles().front().tile.at(0, 1200)));
+  EXPECT_NEAR(ground_m(terrain, 46.2, 9 + 0.5 / 1200), 80, 1e-3);
+  EXPECT_NEAR(ground_m(terrain, 46.2, 9 - 0.5 / 1200), 37.5, 1e-3);  // the coast's post, too
+  EXPECT_EQ(terrain.highest_post_m(), 90);
+  edits.advance_to(0);
+  EXPECT_NEAR(ground_m(terrain, 46.5001, 9.5001), 0, 1e-6);
+  EXPECT_EQ(terrain.highest_post_m(), 5);
 }
 
 TEST_F(Edits, give_the_terrain_that_was_read_with_them) {
@@ -205,14 +213,14 @@ TEST_F(Edits, give_the_terrain_that_was_read_with_them) {
       const auto& expected = anew.tiles()[t].levels;
       ASSERT_EQ(levels.size(), expected.size());
       for (std::size_t level = 0; level < levels.size(); ++level) {
-        for (std::size_t i = 0; i < levels[level].blocks.size(); ++i) {
-          const Block& a = levels[level].blocks[i];
-          const Block& b = expected[level].blocks[i];
-          ASSERT_EQ(a.lowest_m, b.lowest_m) << time_s;
-          ASSERT_EQ(a.highest_m, b.highest_m) << time_s;
-          ASSERT_EQ(a.has_unknown, b.has_unknown) << time_s;
-          ASSERT_EQ(a.must_below_m, b.must_below_m) << time_s << ' ' << level << ' ' << i;
-        }
+        expected[level].for_each_held([&](int row, int column) {
+          const Block& a = levels[level].at(row, column);
+          const Block& b = expected[level].at(row, column);
+          EXPECT_EQ(a.lowest_m, b.lowest_m) << time_s;
+          EXPECT_EQ(a.highest_m, b.highest_m) << time_s;
+          EXPECT_EQ(a.has_unknown, b.has_unknown) << time_s;
+          EXPECT_EQ(a.must_below_m, b.must_below_m) << time_s << ' ' << level << ' ' << row;
+        });
       }
     }
   }

@@ -79,15 +79,35 @@ TEST(TileFiles, hgt_has_its_place_in_its_name_and_runs_from_the_north) {
 TEST(TileFiles, hgt_of_a_third_of_an_arc_second_is_read) {
   const scenes::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "N10E010.hgt";
-  write(file, "\x01\x02");
+  write(file, std::string("\x01\x02\x80\x00", 4));  // 258 m and a void in the north-west
   std::filesystem::resize_file(file, std::uintmax_t{2} * 10801 * 10801);
   const Tile tile = read_hgt(file);
   EXPECT_EQ(tile.columns, 10801);
   EXPECT_DOUBLE_EQ(tile.lon_step_deg, 1.0 / 10800);
   EXPECT_EQ(tile.at(10800, 0), 258);
+  EXPECT_TRUE(std::isnan(tile.at(10800, 1)));
   EXPECT_EQ(tile.at(0, 0), 0);
   std::filesystem::resize_file(file, std::uintmax_t{2} * 10801 * 10801 - 2);
   EXPECT_THROW((void)read_hgt(file), InputError);
+}
+
+TEST(Posts, keep_whole_metres_and_any_other_height_exactly) {
+  Posts posts;
+  for (const float height : {0.0F, -32767.0F, 32767.0F, void_post}) posts.push_back(height);
+  for (const float odd : {0.25F, -32768.0F, 40000.0F}) {
+    Posts changed = posts;
+    changed.set(0, odd);
+    EXPECT_EQ(changed[0], odd);
+    EXPECT_EQ(changed[1], -32767);
+    EXPECT_EQ(changed[2], 32767);
+    EXPECT_TRUE(std::isnan(changed[3]));
+    changed.set(3, 8);
+    changed.resize(5);
+    EXPECT_EQ(changed[3], 8);
+    EXPECT_TRUE(std::isnan(changed[4]));
+  }
+  EXPECT_EQ(posts[0], 0);
+  EXPECT_EQ(posts.size(), 4U);
 }
 
 TEST(TileFiles, dted_is_sign_magnitude_in_columns_from_the_south) {
@@ -119,6 +139,29 @@ TEST(TileFiles, damaged_dted_is_refused) {
     write(file, bytes);
     EXPECT_THROW((void)read_tile(file), InputError);
   }
+}
+
+TEST(TileFiles, damaged_posts_leave_the_place_of_a_tile_known) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "any.dt0";
+  std::string bytes = dted("0220000W", "0640000N", 11, 21, 0);
+  bytes[3428 + 20] = static_cast<char>(bytes[3428 + 20] ^ 1);
+  write(file, bytes);
+  const std::optional<Grid> grid = grid_of_file(file);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->south_deg, 64);
+  EXPECT_EQ(grid->lon_step_deg, 0.1);
+  // So its cell is no sea, and the sea beside it has its steps.
+  const Terrain terrain = Terrain::load(folder.path(), Geoid(), {}, {{64, -22}, {64, -21}});
+  EXPECT_EQ(terrain.ignored_sea_cells(), 1);
+  ASSERT_EQ(terrain.tiles().size(), 1U);
+  EXPECT_EQ(terrain.tiles()[0].tile.west_deg, -21);
+  EXPECT_EQ(terrain.tiles()[0].tile.columns, 11);
+  EXPECT_EQ(terrain.tiles()[0].tile.rows, 21);
+  write(file, bytes.substr(0, bytes.size() - 1));
+  EXPECT_FALSE(grid_of_file(file));
+  EXPECT_FALSE(grid_of_file(folder.path() / "none.tif"));
+  EXPECT_FALSE(grid_of_file(folder.path() / "N46E008.hgt"));
 }
 
 void write_geotiff(const std::filesystem::path& file, int epsg, double west, double north,

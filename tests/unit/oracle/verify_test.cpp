@@ -30,13 +30,14 @@ class Scene {
   [[nodiscard]] Frame drawn(const scenes::Shot& shot) const { return scenes::drawn(*truth_, shot); }
   [[nodiscard]] const Terrain& truth() const { return *truth_; }
 
-  [[nodiscard]] VerifySummary verified(const Frame& frame, int threads = 2) const {
+  [[nodiscard]] VerifySummary verified(const Frame& frame, int threads = 2,
+                                       int pixels = 400) const {
     const scenes::TemporaryFolder dump;
     scenes::write_frame(dump.path(), frame);
     VerifyOptions options;
     options.dump_folder = dump.path();
     options.terrain_folder = terrain_.path();
-    options.pixels_per_frame = 400;
+    options.pixels_per_frame = pixels;
     options.threads = threads;
     std::ostringstream progress;
     return run_verify(options, progress);
@@ -134,16 +135,12 @@ TEST(Verify, a_shift_is_measured_and_fails_only_beyond_the_bound) {
   }
 }
 
-TEST(Verify, any_choice_within_the_bound_is_sound) {
-  scenes::Shot shot = mountain_shot();
-  shot.focal_px = 220;
-  shot.height = 40;
-  shot.pitch_deg = 0;
-  shot.bound_px = 1.5;
+/// A frame each of whose pixels shows what is truly there at a random place of its disc.
+Frame random_choice(const scenes::Shot& shot, unsigned seed) {
   Frame frame = mountain_scene().drawn(shot);
   const Tracer tracer(mountain_scene().truth(), shot.eye, shot.range_m);
   const Camera camera(frame);
-  std::mt19937 random(9);
+  std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int v = 0; v < frame.height; ++v) {
     for (int u = 0; u < frame.width; ++u) {
@@ -155,12 +152,36 @@ TEST(Verify, any_choice_within_the_bound_is_sound) {
           hit.must_be_unknown ? unknown : static_cast<float>(hit.distance_m);
     }
   }
-  const VerifySummary summary = mountain_scene().verified(frame);
+  return frame;
+}
+
+TEST(Verify, any_choice_within_the_bound_is_sound) {
+  scenes::Shot shot = mountain_shot();
+  shot.focal_px = 220;
+  shot.height = 40;
+  shot.pitch_deg = 0;
+  for (const double bound_px : {1.5, 3.0, 6.0, 12.0}) {
+    shot.bound_px = bound_px;
+    const VerifySummary summary = mountain_scene().verified(random_choice(shot, 9));
+    EXPECT_EQ(summary.soundness_violations, 0U) << report(summary);
+    EXPECT_LE(summary.undecided, 1U) << report(summary);
+    EXPECT_GT(summary.error_max_px, 0.45 * bound_px);
+    EXPECT_LE(summary.error_max_px, bound_px);
+    EXPECT_GT(summary.error_mean_px, 0.05 * bound_px);
+  }
+}
+
+TEST(Verify, the_one_hill_of_a_large_disc_is_found_from_above) {
+  // 2026-11: of a disc this large, seen steeply, rings of rays alone missed the nearest point.
+  scenes::Shot shot = mountain_shot();
+  shot.width = 160;
+  shot.height = 120;
+  shot.focal_px = 220;
+  shot.pitch_deg = -75;
+  shot.bound_px = 12;
+  const VerifySummary summary = mountain_scene().verified(random_choice(shot, 9), 2, 3000);
   EXPECT_EQ(summary.soundness_violations, 0U) << report(summary);
   EXPECT_LE(summary.undecided, 1U) << report(summary);
-  EXPECT_GT(summary.error_max_px, 0.7);
-  EXPECT_LE(summary.error_max_px, 1.5);
-  EXPECT_GT(summary.error_mean_px, 0.1);
 }
 
 TEST(Verify, distances_too_long_by_one_percent_fail) {
