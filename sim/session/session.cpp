@@ -81,7 +81,7 @@ Outcome Session::open_folder(const GeodeticPosition& first) {
   }
   lattice_ = lattice_of(folder_->grids(), first);
   window_ = window_sizes(lattice_, first.latitude_deg, options_.settings.range_m,
-                         limits::terrain_gpu_bytes);
+                         options_.terrain_gpu_bytes);
   return {};
 }
 

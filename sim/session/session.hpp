@@ -28,6 +28,7 @@ struct SceneOptions {
   /// the disk is done.
   enum class Arrival : std::uint8_t { settled, in_step, as_ready };
   Arrival arrival = Arrival::settled;
+  double terrain_gpu_bytes = limits::terrain_gpu_bytes;  ///< most the terrain window may take
   int read_delay_us = 0;  ///< before every block; shows that slow disks change no bit
 };
 

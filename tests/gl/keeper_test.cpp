@@ -29,7 +29,7 @@ class ScriptedPort final : public BlockPort {
   std::vector<BlockOrder> built;  ///< by build()
   std::vector<GeoBox> focuses;
 
-  [[nodiscard]] int room() const override { return most_orders - static_cast<int>(orders.size()); }
+  [[nodiscard]] int room() override { return most_orders - static_cast<int>(orders.size()); }
   void order(const BlockOrder& order) override {
     EXPECT_GT(room(), 0);
     orders.push_back(order);

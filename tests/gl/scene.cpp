@@ -85,26 +85,38 @@ double rough_with_voids_m(double latitude_deg, double longitude_deg) {
   return island || speck ? std::nan("") : rough_m(latitude_deg, longitude_deg);
 }
 
-Scene::Scene(const Land& land, const ImageGeometry& image, double error_px, double range_m,
-             const GeodeticPosition& first)
-    : land_path_(land.path()) {
+namespace {
+
+sim::SceneOptions scene_options(const ImageGeometry& image, double error_px, double range_m) {
   sim::SceneOptions options;
-  options.terrain_folder = land_path_;
   options.settings.image = image;
   options.settings.error_px = error_px;
   options.settings.range_m = range_m;
-  require(session_.open(options, first));
+  return options;
 }
 
-sim::Picture Scene::draw(const Pose& pose) {
+}  // namespace
+
+Scene::Scene(const Land& land, const ImageGeometry& image, double error_px, double range_m,
+             const GeodeticPosition& first)
+    : Scene(land, scene_options(image, error_px, range_m), first) {}
+
+Scene::Scene(const Land& land, sim::SceneOptions options, const GeodeticPosition& first)
+    : options_(std::move(options)) {
+  options_.terrain_folder = land.path();
+  require(session_.open(options_, first));
+}
+
+sim::Picture Scene::draw(const Pose& pose, double time_s) {
   FrameInput input;
+  input.time_ns = std::llround(time_s * 1e9);
   input.eye = pose.eye;
   input.attitude = pose.attitude;
   return session_.draw(input, true);
 }
 
-sim::Picture Scene::shoot(const Pose& pose) {
-  sim::Picture picture = draw(pose);
+sim::Picture Scene::shoot(const Pose& pose, double time_s) {
+  sim::Picture picture = draw(pose, time_s);
   require(sim::write_dump(dumps_.path(), shots_++, picture, session_.geoid_name()));
   return picture;
 }
@@ -112,7 +124,9 @@ sim::Picture Scene::shoot(const Pose& pose) {
 oracle::VerifySummary Scene::judged(int pixels_per_frame) const {
   oracle::VerifyOptions options;
   options.dump_folder = dumps_.path();
-  options.terrain_folder = land_path_;
+  options.terrain_folder = options_.terrain_folder;
+  options.coverage_file = options_.coverage_file;
+  options.edit_file = options_.edit_file;
   options.pixels_per_frame = pixels_per_frame;
   std::ostringstream progress;
   return oracle::run_verify(options, progress);

@@ -56,18 +56,21 @@ class Scene {
   Scene(const Land& land, const ImageGeometry& image, double error_px, double range_m,
         const GeodeticPosition& first);
 
+  /// The same with every option of a session; its terrain folder is that of the land.
+  Scene(const Land& land, sim::SceneOptions options, const GeodeticPosition& first);
+
   [[nodiscard]] FrameSettings& settings() { return session_.settings(); }
   [[nodiscard]] sim::Session& session() { return session_; }
-  sim::Picture draw(const Pose& pose);
+  sim::Picture draw(const Pose& pose, double time_s = 0);
   /// Draws and dumps one frame; the picture.
-  sim::Picture shoot(const Pose& pose);
+  sim::Picture shoot(const Pose& pose, double time_s = 0);
   /// The oracle's word on every frame shot so far.
   [[nodiscard]] oracle::VerifySummary judged(int pixels_per_frame) const;
   [[nodiscard]] const std::string& dump_path() const { return dumps_.path(); }
 
  private:
   TemporaryFolder dumps_;
-  std::string land_path_;
+  sim::SceneOptions options_;
   sim::Session session_;
   int shots_ = 0;
 };

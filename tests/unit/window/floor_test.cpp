@@ -70,14 +70,14 @@ class Plain {
   std::map<std::pair<int, int>, float> bare_;  ///< of squares without a known post
 };
 
-/// One tile with voids of every size between two missing ones, and a coarser tile.
+/// Two tiles of one step with voids of every size, between missing ones.
 Ground holey(int seed) {
   Ground ground(lattice_3s());
   ground.add({0, 0, 1, 1, 601, 601}, [seed](int column, int row) {
     const bool lake = column > 150 && column < 420 && row > 130 && row < 460;
     return lake ? unknown : rough_with_voids(seed)(column, row);
   });
-  ground.add({600, 0, 3, 3, 51, 51}, rough_with_voids(seed + 1));
+  ground.add({600, 0, 1, 1, 151, 151}, rough_with_voids(seed + 1));
   ground.finish();
   return ground;
 }
