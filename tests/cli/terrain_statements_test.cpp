@@ -85,7 +85,7 @@ TEST_F(Coast, is_followed_by_unknown_ground_unless_the_list_says_sea) {
 
 TEST_F(Coast, may_have_coarser_posts_than_the_sea) {
   // 6" from west to east on land; at sea 3", from the tile elsewhere in the folder.
-  write_dted(file("tiles/s56_w073.dt1"), 1, -56, -73, [](int, int column) { return 2 * column; });
+  write_dted(file("tiles/s56_w073.dt1"), 1, -56, -73, hill_m);
   write_text(list(), "sea S56W074\nsea S56W073\n");
   latitude_ = "-55.5";
   expect_sea("with");
