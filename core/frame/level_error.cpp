@@ -14,7 +14,7 @@ constexpr double widest_off_axis_rad = 1.45;  ///< farther off, a block counts f
 constexpr double smallest_radius_m = 6'335'000.0;
 constexpr double chord_share = 0.99;  ///< of a distance in latitude and longitude, at 200 km
 constexpr double neighbour_px = 0.7071;
-constexpr double farthest_neighbour_px = 4.0;
+constexpr double all_neighbours_px = 4.0;  ///< so far every pixel is tried
 constexpr double between_corners = 0.995;  ///< a part's inside against its corners
 constexpr double near_vertical = 0.2;      ///< sine of the angle to straight up or down
 
@@ -189,23 +189,28 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
 
 bool stays_complete(const Camera& camera, double epsilon_px, const LevelError& error,
                     double geometry_rad) {
-  const double reach = std::min(epsilon_px + neighbour_px, farthest_neighbour_px);
-  const int whole = static_cast<int>(reach);
+  const double reach = epsilon_px + neighbour_px;
   const double beside_px_per_rad = std::min(camera.fx, camera.fy);
   bool complete = true;
   over_corners(camera, error, [&](const LevelError::Part& part, const Upright& upright) {
-    if (upright.px_per_rad <= 0) return;
+    if (upright.px_per_rad <= 0 || !complete) return;
     double best = 0;
-    for (int j = -whole; j <= whole; ++j) {
-      for (int i = -whole; i <= whole; ++i) {
-        if (std::hypot(i, j) > reach) continue;
-        const double above = i * upright.way.x + j * upright.way.y;
-        const double beside = std::abs(i * upright.way.y - j * upright.way.x);
-        best = std::max(best, between_corners * above / upright.px_per_rad -
-                                  part.steepness * beside / beside_px_per_rad);
-      }
+    const auto try_neighbour = [&](double i, double j) {
+      if (std::hypot(i, j) > reach) return;
+      const double above = i * upright.way.x + j * upright.way.y;
+      const double beside = std::abs(i * upright.way.y - j * upright.way.x);
+      best = std::max(best, between_corners * above / upright.px_per_rad -
+                                part.steepness * beside / beside_px_per_rad);
+    };
+    const int near = static_cast<int>(std::min(reach, all_neighbours_px));
+    for (int j = -near; j <= near; ++j) {
+      for (int i = -near; i <= near; ++i) try_neighbour(i, j);
     }
-    complete = complete && best >= part.angle_rad + geometry_rad;
+    // Farther off, those next to the image of the vertical.
+    for (int k = near + 1; k <= static_cast<int>(reach); ++k) {
+      try_neighbour(std::round(k * upright.way.x), std::round(k * upright.way.y));
+    }
+    complete = best >= part.angle_rad + geometry_rad;
   });
   return complete;
 }

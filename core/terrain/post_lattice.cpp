@@ -8,7 +8,8 @@ namespace {
 
 constexpr double step_tolerance = 1e-7;   ///< relative difference of two steps that are the same
 constexpr double phase_tolerance = 1e-4;  ///< posts; 1 cm at 3 arc seconds
-constexpr int finest_division = 6;        ///< of the leading tile's step
+constexpr int finest_division = 6;        ///< of the finer of two steps, to find their common one
+constexpr int most_divisions = 180;       ///< 30" and a third of a second, twice
 constexpr double srtm3_deg = 1.0 / 1200.0;
 
 AxisFit fit_axis(double start, double step, double tile_start, double tile_step) {
@@ -31,9 +32,11 @@ double distance_deg(const PostGrid& tile, const GeodeticPosition& place) {
   return std::hypot(east, north);
 }
 
-/// Divides a step further until `other` is a multiple; unchanged where that takes too fine a step.
-double common_step(double step, double finest, double other) {
-  for (int division = 1; division <= finest_division; ++division) {
+/// Divides a step further until `other` is a multiple; unchanged where that takes a step much finer
+/// than both.
+double common_step(double step, double other) {
+  const double finest = std::min(step, other) / finest_division;
+  for (int division = 1; division <= most_divisions; ++division) {
     const double candidate = step / division;
     if (candidate < finest * (1 - step_tolerance)) break;
     const double ratio = other / candidate;
@@ -87,14 +90,10 @@ PostLattice lattice_of(std::span<const PostGrid> tiles, const GeodeticPosition& 
   if (lead == nullptr) return {0.0, 0.0, srtm3_deg, srtm3_deg};
   PostLattice lattice{lead->south_deg, lead->west_deg, lead->latitude_step_deg,
                       lead->longitude_step_deg};
-  const double finest_latitude = lead->latitude_step_deg / finest_division;
-  const double finest_longitude = lead->longitude_step_deg / finest_division;
   for (const PostGrid& tile : tiles) {
     PostLattice finer = lattice;
-    finer.latitude_step_deg =
-        common_step(lattice.latitude_step_deg, finest_latitude, tile.latitude_step_deg);
-    finer.longitude_step_deg =
-        common_step(lattice.longitude_step_deg, finest_longitude, tile.longitude_step_deg);
+    finer.latitude_step_deg = common_step(lattice.latitude_step_deg, tile.latitude_step_deg);
+    finer.longitude_step_deg = common_step(lattice.longitude_step_deg, tile.longitude_step_deg);
     const bool fits = fit_rows(finer, tile).ratio > 0 && fit_columns(finer, tile, 0.0).ratio > 0;
     if (fits) lattice = finer;
   }

@@ -53,8 +53,8 @@ AxisFit fit_columns(const PostLattice& lattice, const PostGrid& tile, double nea
 
 /// The lattice of a set of tiles: its step is the largest of which the steps of the tiles are whole
 /// multiples. The tile nearest to `near` with the finest step of those within a degree sets origin
-/// and phase; tiles that would make the step finer than a sixth of it, or whose posts are out of
-/// phase, are left out (they are mismatched wherever they are met).
+/// and phase; tiles that would make the step finer than a sixth of both theirs and the one so far,
+/// or whose posts are out of phase, are left out (they are mismatched wherever they are met).
 /// Result: 3 arc seconds from the equator and Greenwich where there is no tile.
 PostLattice lattice_of(std::span<const PostGrid> tiles, const GeodeticPosition& near);
 

@@ -125,8 +125,8 @@ oracle::VerifySummary Scene::judged(int pixels_per_frame) const {
   oracle::VerifyOptions options;
   options.dump_folder = dumps_.path();
   options.terrain_folder = options_.terrain_folder;
-  options.coverage_file = options_.coverage_file;
-  options.edit_file = options_.edit_file;
+  if (!options_.coverage_file.empty()) options.coverage_file = options_.coverage_file;
+  if (!options_.edit_file.empty()) options.edit_file = options_.edit_file;
   options.pixels_per_frame = pixels_per_frame;
   std::ostringstream progress;
   return oracle::run_verify(options, progress);

@@ -72,15 +72,24 @@ TEST(Lattice, finds_a_common_step_that_no_tile_has) {
   expect_steps(lattice_of(odd, {46.5, 8.5, 0}), 1, 1);
 }
 
-TEST(Lattice, leaves_out_a_tile_that_would_make_it_finer_than_a_sixth) {
-  const std::vector<PostGrid> tiles{tile(46, 8, 3, 3), tile(46, 12, 1.0 / 3, 1.0 / 3)};
-  const PostLattice coarse = lattice_of(tiles, {46.5, 8.5, 0});
-  expect_steps(coarse, 3, 3);
-  EXPECT_EQ(fit_rows(coarse, tiles[1]).ratio, 0);
-  EXPECT_EQ(fit_columns(coarse, tiles[1], 0).ratio, 0);
-  const PostLattice fine = lattice_of(tiles, {46.5, 12.5, 0});
-  expect_steps(fine, 1.0 / 3, 1.0 / 3);
-  EXPECT_EQ(fit_rows(fine, tiles[0]).ratio, 9);
+TEST(Lattice, takes_the_step_of_a_much_finer_tile_wherever_it_is) {
+  const std::vector<PostGrid> tiles{tile(46, 8, 30, 30), tile(46, 12, 1.0 / 3, 1.0 / 3)};
+  for (const double eye_deg : {8.5, 12.5}) {
+    const PostLattice lattice = lattice_of(tiles, {46.5, eye_deg, 0});
+    expect_steps(lattice, 1.0 / 3, 1.0 / 3);
+    EXPECT_EQ(fit_rows(lattice, tiles[0]).ratio, 90);
+  }
+}
+
+TEST(Lattice, leaves_out_a_tile_that_would_make_it_finer_than_a_sixth_of_both) {
+  const std::vector<PostGrid> tiles{tile(46, 8, 3, 3), tile(46, 12, 3.6, 3.6)};
+  const PostLattice lattice = lattice_of(tiles, {46.5, 8.5, 0});
+  expect_steps(lattice, 0.6, 0.6);
+  const std::vector<PostGrid> odd{tile(46, 8, 3, 3), tile(46, 12, 3.75, 3.75),
+                                  tile(46, 13, 3.2, 3.2)};
+  const PostLattice left = lattice_of(odd, {46.5, 8.5, 0});
+  expect_steps(left, 0.75, 0.75);
+  EXPECT_EQ(fit_rows(left, odd[2]).ratio, 0);
 }
 
 TEST(Lattice, leaves_out_tiles_out_of_phase_or_of_an_odd_step) {
