@@ -11,18 +11,15 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double largest_map_error_rad = 1e-4;
+constexpr double least_ranges_to_pole = 4.0;       ///< of an eye in the geographic chart
+constexpr double least_polar_latitude_deg = 79.0;  ///< of an eye in a polar chart
 
 /// A ground point with its exact place.
 struct Sample {
-  double e = 0, n = 0;                         ///< E and N over the range
-  double latitude_deg = 0, longitude_deg = 0;  ///< offsets from the eye
-  double swell_m = 0;                          ///< of the ellipsoid over the circle
+  double e = 0, n = 0;  ///< E and N over the range
+  ChartPoint offset;    ///< from the eye
+  double swell_m = 0;   ///< of the ellipsoid over the circle
 };
-
-double wrapped_deg(double angle) {
-  angle = std::fmod(angle + 180.0, 360.0);
-  return angle < 0 ? angle + 180.0 : angle - 180.0;
-}
 
 double osculating_radius_m(const LocalFrame& frame, double alpha) {
   const double c = std::cos(alpha), s = std::sin(alpha);
@@ -30,7 +27,8 @@ double osculating_radius_m(const LocalFrame& frame, double alpha) {
 }
 
 /// The ellipsoid point on the radial line of (alpha, g): radial Newton steps on the height.
-Sample exact_sample(const LocalFrame& frame, double range_m, double alpha, double g_m) {
+Sample exact_sample(const LocalFrame& frame, Chart chart, double range_m, double alpha,
+                    double g_m) {
   const double radius = osculating_radius_m(frame, alpha);
   const double theta = g_m / radius;
   const glm::dvec3 horizontal(std::sin(alpha), std::cos(alpha), 0.0);
@@ -43,13 +41,12 @@ Sample exact_sample(const LocalFrame& frame, double range_m, double alpha, doubl
     rho -= place.height_m;
   }
   return {g_m * std::sin(alpha) / range_m, g_m * std::cos(alpha) / range_m,
-          place.latitude_deg - frame.eye.latitude_deg,
-          wrapped_deg(place.longitude_deg - frame.eye.longitude_deg), rho - radius};
+          chart_offset(chart, frame.eye, {place.latitude_deg, place.longitude_deg}), rho - radius};
 }
 
-constexpr std::array<std::array<int, 2>, 11> latitude_terms{
+constexpr std::array<std::array<int, 2>, 11> north_terms{
     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {2, 0}, {2, 1}, {2, 2}, {2, 3}, {4, 0}, {4, 1}}};
-constexpr std::array<std::array<int, 2>, 9> longitude_terms{
+constexpr std::array<std::array<int, 2>, 9> east_terms{
     {{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {3, 0}, {3, 1}, {3, 2}, {5, 0}}};
 constexpr std::array<std::array<int, 2>, 2> swell_terms{{{0, 3}, {2, 1}}};
 
@@ -109,15 +106,15 @@ class Fit {
 double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double alpha, double g_m) {
   const double radius = osculating_radius_m(frame, alpha);
   const double theta = g_m / radius;
-  double latitude = 0, longitude = 0;
-  map.offsets_deg(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m,
-                  latitude, longitude);
+  const ChartPoint offset =
+      map.offset(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m);
+  const GroundPlace place = place_at(map.chart, frame.eye, offset);
   const double swell_m =
       map.swell_at_m(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m);
   double worst = 0;
   for (const double height_m : {-500.0, 3'000.0, limits::max_terrain_height_m}) {
-    const Vec3<Ecef> exact = ecef_from_geodetic(
-        {frame.eye.latitude_deg + latitude, frame.eye.longitude_deg + longitude, height_m});
+    const Vec3<Ecef> exact =
+        ecef_from_geodetic({place.latitude_deg, place.longitude_deg, height_m});
     const Vec3<Enu> exact_enu = frame.ecef_from_enu.inverse() * (exact - frame.eye_ecef);
     const double rho = radius + swell_m + height_m;
     const double x = rho * std::sin(theta);
@@ -130,42 +127,48 @@ double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double al
 
 }  // namespace
 
-void GroundMap::offsets_deg(double e, double n, double& latitude, double& longitude) const {
-  const auto& a = latitude_deg;
-  const auto& b = longitude_deg;
+ChartPoint GroundMap::offset(double e, double n) const {
+  const auto& a = north_deg;
+  const auto& b = east_deg;
   const double e2 = e * e;
-  latitude = n * (a[0] + n * (a[1] + n * (a[2] + n * (a[3] + n * a[4])))) +
-             e2 * (a[5] + n * (a[6] + n * (a[7] + n * a[8])) + e2 * (a[9] + n * a[10]));
-  longitude = e * (b[0] + n * (b[1] + n * (b[2] + n * (b[3] + n * b[4]))) +
-                   e2 * (b[5] + n * (b[6] + n * b[7]) + e2 * b[8]));
+  const double north = n * (a[0] + n * (a[1] + n * (a[2] + n * (a[3] + n * a[4])))) +
+                       e2 * (a[5] + n * (a[6] + n * (a[7] + n * a[8])) + e2 * (a[9] + n * a[10]));
+  const double east = e * (b[0] + n * (b[1] + n * (b[2] + n * (b[3] + n * b[4]))) +
+                           e2 * (b[5] + n * (b[6] + n * b[7]) + e2 * b[8]));
+  return {east, north};
 }
 
-Result<GroundMap> ground_map(const LocalFrame& frame, double range_m) {
+Result<GroundMap> ground_map(const LocalFrame& frame, double range_m, Chart chart) {
   if (!(range_m >= limits::min_range_m && range_m <= limits::max_range_m)) {
     return Fault::range_out_of_range;
   }
-  const double cos_latitude = std::cos(frame.eye.latitude_deg * pi / 180.0);
-  if (cos_latitude < 4.0 * range_m / frame.prime_vertical_radius_m) return Fault::no_error_bound;
+  const double ranges =
+      std::cos(frame.eye.latitude_deg * pi / 180.0) * frame.prime_vertical_radius_m / range_m;
+  if (chart == Chart::geographic && ranges < least_ranges_to_pole) return Fault::no_error_bound;
+  if (chart != Chart::geographic && std::abs(frame.eye.latitude_deg) < least_polar_latitude_deg) {
+    return Fault::no_error_bound;
+  }
   GroundMap map;
+  map.chart = chart;
   map.range_m = range_m;
   map.inverse_meridian_radius = 1.0 / frame.meridian_radius_m;
   map.inverse_prime_vertical_radius = 1.0 / frame.prime_vertical_radius_m;
-  Fit<11> latitude_fit(latitude_terms);
-  Fit<9> longitude_fit(longitude_terms);
+  Fit<11> north_fit(north_terms);
+  Fit<9> east_fit(east_terms);
   Fit<2> swell_fit(swell_terms);
   constexpr int azimuths = 13, radii = 7;
   for (int i = 0; i < azimuths; ++i) {  // the eastern half: the map is even or odd in E
     for (int k = 1; k <= radii; ++k) {
       const double g_m = 1.005 * range_m * 0.5 * (1.0 - std::cos(pi * k / radii));
-      const Sample sample = exact_sample(frame, range_m, pi * i / (azimuths - 1), g_m);
+      const Sample sample = exact_sample(frame, chart, range_m, pi * i / (azimuths - 1), g_m);
       const double weight = range_m / g_m;  // equal angles, not equal metres
-      latitude_fit.add(sample.e, sample.n, sample.latitude_deg, weight);
-      longitude_fit.add(sample.e, sample.n, sample.longitude_deg, weight);
+      north_fit.add(sample.e, sample.n, sample.offset.north_deg, weight);
+      east_fit.add(sample.e, sample.n, sample.offset.east_deg, weight);
       swell_fit.add(sample.e, sample.n, sample.swell_m, weight);
     }
   }
-  map.latitude_deg = latitude_fit.solve();
-  map.longitude_deg = longitude_fit.solve();
+  map.north_deg = north_fit.solve();
+  map.east_deg = east_fit.solve();
   map.swell_m = swell_fit.solve();
   double worst = 0;
   for (int i = 0; i <= 25; ++i) {

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "core/base/result.hpp"
+#include "core/geo/chart.hpp"
 #include "core/geo/local_frame.hpp"
 
 namespace ridgeline {
@@ -11,9 +12,11 @@ namespace ridgeline {
 /// A vertical plane through the eye with azimuth alpha cuts the ellipsoid in a curve whose
 /// osculating circle at the foot of the eye has radius R(alpha), 1/R = cos²alpha/M + sin²alpha/N.
 /// A ground point is named by (alpha, g): it lies on the radial line at angle g/R(alpha) from the
-/// centre of that circle. With E = g sin alpha, N = g cos alpha its latitude and longitude are
-///   latitude  = latitude_eye  + sum over i even  a_ij (E/range)^i (N/range)^j
-///   longitude = longitude_eye + sum over i odd   b_ij (E/range)^i (N/range)^j      (i + j <= 5)
+/// centre of that circle. With E = g sin alpha, N = g cos alpha its offset from the eye in the
+/// chart, turned so that the eye's meridian is north (core/geo/chart.hpp), is
+///   north = sum over i even  a_ij (E/range)^i (N/range)^j
+///   east  = sum over i odd   b_ij (E/range)^i (N/range)^j      (i + j <= 5)
+/// that is, latitude and longitude from the eye's in the geographic chart;
 /// and the point at height h above it has the plane coordinates
 ///   x = (R + h) sin(g/R),   y = (R + h) cos(g/R) - (R + height_eye).
 /// The ellipsoid itself does not follow the circle: at (alpha, g) it lies
@@ -22,13 +25,14 @@ namespace ridgeline {
 /// What these formulas leave out (its normals leave the plane, the series end) is measured against
 /// GeographicLib when the map is made: `error_rad`.
 struct GroundMap {
+  Chart chart = Chart::geographic;
   double range_m = 0;
   double inverse_meridian_radius = 0;        ///< 1/M
   double inverse_prime_vertical_radius = 0;  ///< 1/N
   /// deg; order (i,j): 01 02 03 04 05 20 21 22 23 40 41
-  std::array<double, 11> latitude_deg{};
+  std::array<double, 11> north_deg{};
   /// deg; order (i,j): 10 11 12 13 14 30 31 32 50
-  std::array<double, 9> longitude_deg{};
+  std::array<double, 9> east_deg{};
   std::array<double, 2> swell_m{};  ///< w_0, w_1; order (i,j): 03 21
   /// Largest displacement of a ground point at any height of the domain, over its distance from
   /// the eye, rad: the angle by which this map can misplace anything in the picture.
@@ -38,16 +42,19 @@ struct GroundMap {
   [[nodiscard]] double swell_at_m(double e, double n) const {
     return n * (swell_m[0] * n * n + swell_m[1] * e * e);
   }
-  /// Latitude and longitude offsets of ground point (E, N), both over range_m.
-  void offsets_deg(double e, double n, double& latitude, double& longitude) const;
+  /// Offset from the eye of ground point (E, N), both over range_m.
+  [[nodiscard]] ChartPoint offset(double e, double n) const;
 };
 
 /// Fits the map for one eye and display range.
-/// Domain: the eye must stay away from the poles by a few display ranges; nearer, `error_rad`
-///         grows and past 1e-4 rad the answer is Fault::no_error_bound.
+/// Domain: in the geographic chart the eye stays about five display ranges away from the poles, in
+/// a
+///         polar chart within 11 degrees of one; elsewhere, and where `error_rad` would pass 1e-4
+///         rad, the answer is Fault::no_error_bound.
 /// Error:  `error_rad` is 1.5 times the largest misplacement over a fixed set of 260 check points
 ///         at three heights each; the functions are analytic and smooth at that spacing.
 /// Cost:   about 1000 GeographicLib conversions; no allocation.
-Result<GroundMap> ground_map(const LocalFrame& frame, double range_m);
+Result<GroundMap> ground_map(const LocalFrame& frame, double range_m,
+                             Chart chart = Chart::geographic);
 
 }  // namespace ridgeline
