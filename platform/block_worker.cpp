@@ -18,6 +18,10 @@ BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
   const auto side = static_cast<std::size_t>(region_side(settings.levels - 1));
   posts_.resize(side * side);
   rows_.resize(static_cast<std::size_t>(row_scratch(settings.levels - 1)));
+  if (settings.polar) {
+    low_.resize(polar_cells(settings.levels - 1));
+    high_.resize(polar_cells(settings.levels - 1));
+  }
   jobs_.resize(slots);
   blocks_.resize(slots);
   thread_ = std::thread([this] { run(); });
@@ -94,9 +98,9 @@ void BlockWorker::build_into(const Job& job, TerrainBlock& block) {
   if (!(job.focus == selected_)) folder_.select(job.focus);
   selected_ = job.focus;
   const BlockOrder& order = job.order;
-  const TerrainSource source{settings_.lattice, folder_.tiles(),
+  const TerrainSource source{lattice_in(order.chart, settings_.lattice), folder_.tiles(),
                              edits_.first(static_cast<std::size_t>(order.edits)), settings_.geoid};
-  build_block(source, order.id, settings_.far_floor_m, {posts_, rows_}, block);
+  build_block(source, order.id, settings_.far_floor_m, {posts_, rows_, low_, high_}, block);
 }
 
 void BlockWorker::run() {
@@ -159,8 +163,8 @@ std::size_t BlockWorker::mapped_bytes() const {
 }
 
 std::size_t BlockWorker::buffer_bytes() const {
-  return sizeof(float) * (posts_.size() + rows_.size()) + blocks_.size() * sizeof(TerrainBlock) +
-         jobs_.size() * sizeof(Job);
+  return sizeof(float) * (posts_.size() + rows_.size() + low_.size() + high_.size()) +
+         blocks_.size() * sizeof(TerrainBlock) + jobs_.size() * sizeof(Job);
 }
 
 namespace {

@@ -29,11 +29,13 @@ class BlockWorker final : public BlockPort {
     double far_floor_m = 0;
     GeoidLookup geoid;
     Arrival arrival = Arrival::in_step;
-    int delay_us = 0;  ///< before every block; to show that late data changes nothing but time
+    bool polar = false;  ///< orders in polar charts may come: takes three times the posts
+    int delay_us = 0;    ///< before every block; to show that late data changes nothing but time
   };
 
   /// Starts the thread. `folder` outlives the worker and is used by nobody else meanwhile.
-  /// Cost: allocates all buffers: 22 KiB a block in flight, (68 * 2^(levels - 1))^2 posts.
+  /// Cost: allocates all buffers: 22 KiB a block in flight, (68 * 2^(levels - 1))^2 posts, and
+  ///       twice as many numbers again for polar charts.
   BlockWorker(TerrainFolder& folder, const Settings& settings);
   ~BlockWorker() override;
   BlockWorker(const BlockWorker&) = delete;
@@ -79,7 +81,7 @@ class BlockWorker final : public BlockPort {
   TerrainFolder& folder_;
   Settings settings_;
   std::span<const TerrainEdit> edits_;
-  std::vector<float> posts_, rows_;
+  std::vector<float> posts_, rows_, low_, high_;
   std::vector<Job> jobs_;
   std::vector<TerrainBlock> blocks_;
   TerrainBlock at_once_;

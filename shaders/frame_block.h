@@ -55,8 +55,9 @@ RL_BLOCK(FrameBlock, 0) {
   ivec4 level_eye[6];   // xy: where a level keeps the post south-west of the eye
   ivec4 level_rect[6];  // cells a level can draw: west, south, east, north (ends excluded)
   vec4 level_reach[6];  // x: ground distance up to which its nodes cover a wedge
-  vec4 latitude[3];   // ground map in posts: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
-  vec4 longitude[3];  // 10 11 12 13 | 14 30 31 32 | 50 - - -
+  vec4 latitude[3];   // ground map in posts, northwards: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
+  vec4 longitude[3];  // eastwards: 10 11 12 13 | 14 30 31 32 | 50 - - -
+  vec4 turn;          // xy: cosine and sine of the angle from the eye's east to the lattice's
 };
 
 // The projected grid of one frame.

@@ -87,7 +87,7 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   vec2 at = ground_posts(place.x, place.y);
   Relief relief = relief_at(at);
   float height = p.height + earth.w - geoid_m(place);
-  vec2 slope = relief.gradient * post_step.xy;
+  vec2 slope = turned_back(relief.gradient * post_step.xy);
   vec3 normal = vec3(-slope, 1.0);  // not of unit length
   float size2 = 1.0 + dot(slope, slope);
 

@@ -7,6 +7,10 @@ const float void_threshold = -50000.0;
 const float void_offset = 100000.0;
 const float sky = 1.0e30;
 
+// From the eye's east and north to columns and rows, and back.
+vec2 turned(vec2 v) { return vec2(turn.x * v.x - turn.y * v.y, turn.y * v.x + turn.x * v.y); }
+vec2 turned_back(vec2 v) { return vec2(turn.x * v.x + turn.y * v.y, turn.x * v.y - turn.y * v.x); }
+
 // Post coordinates of the ground point E, N (both over the display range), relative to the eye's post.
 vec2 ground_posts(float e, float n) {
   float e2 = e * e;
@@ -18,7 +22,7 @@ vec2 ground_posts(float e, float n) {
                n * (longitude[0].w + n * longitude[1].x))) +
                e2 * (longitude[1].y + n * (longitude[1].z + n * longitude[1].w) +
                e2 * longitude[2].x));
-  return eye.xy + vec2(east, north);
+  return eye.xy + turned(vec2(east, north));
 }
 
 // The ground map along one azimuth: posts(u) = eye.xy + u*(c[0] + u*(c[1] + ...)), u = g/range.
@@ -37,6 +41,11 @@ Track track_of(float s, float c) {
                    longitude[2].x * s2 * s2),
               c * (c * c * (latitude[1].x * c * c + latitude[2].x * s2) +
                    latitude[2].z * s2 * s2));
+  t.c1 = turned(t.c1);
+  t.c2 = turned(t.c2);
+  t.c3 = turned(t.c3);
+  t.c4 = turned(t.c4);
+  t.c5 = turned(t.c5);
   return t;
 }
 

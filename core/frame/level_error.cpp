@@ -17,6 +17,14 @@ constexpr double neighbour_px = 0.7071;
 constexpr double all_neighbours_px = 4.0;  ///< so far every pixel is tried
 constexpr double between_corners = 0.995;  ///< a part's inside against its corners
 constexpr double near_vertical = 0.2;      ///< sine of the angle to straight up or down
+constexpr double least_grip = 0.05;        ///< below it a turn of the ray wins no height
+constexpr double no_bound_rad = 1e3;
+
+/// The shortest a degree between columns gets up to a latitude, over one of the smallest radius. In
+/// a polar chart, where one is a degree of a circle round the pole, it is longer than that.
+double narrowest(const PostLattice& lattice, double latitude_deg) {
+  return lattice.polar() ? 1.0 : std::cos(std::min(latitude_deg, 90.0) * rad_per_deg);
+}
 
 /// Lower bound on the distance from the eye to everything outside a rectangle of posts.
 double distance_out_m(const TerrainView& view, const PostRect& rect, double latitude_deg) {
@@ -25,8 +33,8 @@ double distance_out_m(const TerrainView& view, const PostRect& rect, double lati
   const double columns = std::min(view.eye_column - rect.west, rect.east - view.eye_column);
   if (rows <= 0 || columns <= 0) return 0.0;
   // Sideways the way out may lead north first, where posts are narrower: by no more than `rows`.
-  const double narrow = std::cos(
-      std::min(std::abs(latitude_deg) + rows * view.lattice.latitude_step_deg, 90.0) * rad_per_deg);
+  const double narrow =
+      narrowest(view.lattice, std::abs(latitude_deg) + rows * view.lattice.latitude_step_deg);
   const double north_m = rows * view.lattice.latitude_step_deg;
   const double east_m = columns * view.lattice.longitude_step_deg * narrow;
   return chord_share * smallest_radius_m * rad_per_deg * std::min(north_m, east_m);
@@ -46,11 +54,10 @@ struct Place {
     // A block to the north or south is as narrow as its far edge.
     const double reach =
         std::max(std::abs(rect.south - view.eye_row), std::abs(rect.north - view.eye_row));
-    const double farthest_deg =
-        std::min(std::abs(latitude_deg) + reach * view.lattice.latitude_step_deg, 90.0);
+    const double farthest_deg = std::abs(latitude_deg) + reach * view.lattice.latitude_step_deg;
     const double north_deg = rows * view.lattice.latitude_step_deg;
     const double east_deg =
-        columns * view.lattice.longitude_step_deg * std::cos(farthest_deg * rad_per_deg);
+        columns * view.lattice.longitude_step_deg * narrowest(view.lattice, farthest_deg);
     return chord_share * smallest_radius_m * rad_per_deg * std::hypot(north_deg, east_deg);
   }
 };
@@ -110,6 +117,35 @@ void mark(const Camera& camera, const Sight& sight, double angle_rad, double ste
   }
 }
 
+/// Upper bound on the angle below the level at which the picture, grown by the disc of the largest
+/// bound, looks down anywhere.
+double steepest_look_rad(const Camera& camera) {
+  const glm::dvec3 up = glm::transpose(camera.enu_from_camera.columns) * glm::dvec3(0, 0, 1);
+  const double between_rad = 0.5 * std::max(camera.width_px / camera.fx / LevelError::columns,
+                                            camera.height_px / camera.fy / LevelError::rows);
+  double deepest = -0.5 * std::numbers::pi;
+  for (int j = 0; j <= LevelError::rows; ++j) {
+    for (int i = 0; i <= LevelError::columns; ++i) {
+      const double x = tangent(i, LevelError::columns, camera.width_px, camera.cx, camera.fx);
+      const double y = tangent(j, LevelError::rows, camera.height_px, camera.cy, camera.fy);
+      const glm::dvec3 ray = glm::normalize(glm::dvec3(x, y, 1.0));
+      deepest = std::max(deepest, std::asin(std::clamp(-glm::dot(ray, up), -1.0, 1.0)));
+    }
+  }
+  const double diagonal = std::numbers::sqrt2 * between_rad;
+  return std::min(deepest + diagonal + view_margin_rad, 0.5 * std::numbers::pi);
+}
+
+/// By what angle a ray must turn to make up for a surface that is off by `residual_m` at a
+/// distance. A ray that looks down gains less height along its way by a turn, the more so as the
+/// ground rises towards it: at 90 degrees none, and distances to level ground cannot be bounded at
+/// all.
+double turn_rad(double residual_m, double away_m, double down_rad, double steepness) {
+  if (residual_m <= 0) return 0.0;
+  const double grip = std::cos(down_rad) - steepness * std::sin(std::max(down_rad, 0.0));
+  return grip > least_grip ? residual_m / (away_m * grip) : no_bound_rad;
+}
+
 /// How the picture moves at an image point when a ray turns within its vertical plane.
 struct Upright {
   glm::dvec2 way{0.0};    ///< direction in the picture, of length 1
@@ -149,6 +185,8 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
   const TerrainView view = terrain.view();
   const double latitude_deg = local.eye.latitude_deg;
   const double half_diagonal_rad = camera.half_diagonal_rad(0.0);
+  const bool near_too = view.lattice.polar();  // else only far blocks are off, seen at a low angle
+  const double look_rad = near_too ? steepest_look_rad(camera) : 0.0;
   LevelError error;
   error.clear_range_m = range_m;
   for (int level = 0; level < view.sizes.levels; ++level) {
@@ -159,17 +197,27 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
       const BlockFacts& facts = block.facts;
       if (!(facts.residual_m > 0) && !facts.mixed) return;
       const double above_m = local.eye.height_m - static_cast<double>(facts.highest_m);
-      const double least_m = std::max({above_m, inner_m, clearance_m, 0.05});
+      const double sight_m = near_too && look_rad > 0 ? above_m / std::sin(look_rad) : above_m;
+      const double least_m = std::max({sight_m, inner_m, clearance_m, 0.05});
       double angle_rad = 0;
       for (int part = 0; part < residual_parts * residual_parts; ++part) {
         const Place place = place_of(block.id, part);
         if (level > 0 && place.inside(finer)) continue;
-        const double away_m = std::max(place.from_eye_m(view, latitude_deg), least_m);
+        const double over_ground_m = place.from_eye_m(view, latitude_deg);
+        const double away_m = std::max(over_ground_m, least_m);
         if (away_m > range_m) continue;
         if (facts.mixed) error.clear_range_m = std::min(error.clear_range_m, chord_share * away_m);
         const auto residual_m =
             static_cast<double>(facts.part_residual_m[static_cast<std::size_t>(part)]);
-        angle_rad = std::max(angle_rad, residual_m / away_m);
+        if (!near_too) {
+          angle_rad = std::max(angle_rad, residual_m / away_m);
+          continue;
+        }
+        const double deep_m = local.eye.height_m - static_cast<double>(facts.lowest_m);
+        const double down_rad =
+            std::atan2(deep_m, over_ground_m) + over_ground_m / smallest_radius_m + view_margin_rad;
+        angle_rad = std::max(angle_rad, turn_rad(residual_m, away_m, std::min(down_rad, look_rad),
+                                                 static_cast<double>(facts.steepness)));
       }
       if (facts.mixed || angle_rad <= 0) return;
       const Sight sight = sight_of(facts, local, camera, half_diagonal_rad);
@@ -191,24 +239,28 @@ bool stays_complete(const Camera& camera, double epsilon_px, const LevelError& e
                     double geometry_rad) {
   const double reach = epsilon_px + neighbour_px;
   const double beside_px_per_rad = std::min(camera.fx, camera.fy);
+  const double half_diagonal_rad = camera.half_diagonal_rad(0.0);
   bool complete = true;
   over_corners(camera, error, [&](const LevelError::Part& part, const Upright& upright) {
     if (upright.px_per_rad <= 0 || !complete) return;
     double best = 0;
-    const auto try_neighbour = [&](double i, double j) {
+    const auto try_neighbour = [&](double i, double j, double share) {
       if (std::hypot(i, j) > reach) return;
       const double above = i * upright.way.x + j * upright.way.y;
       const double beside = std::abs(i * upright.way.y - j * upright.way.x);
-      best = std::max(best, between_corners * above / upright.px_per_rad -
-                                part.steepness * beside / beside_px_per_rad);
+      best = std::max(
+          best, share * above / upright.px_per_rad - part.steepness * beside / beside_px_per_rad);
     };
     const int near = static_cast<int>(std::min(reach, all_neighbours_px));
     for (int j = -near; j <= near; ++j) {
-      for (int i = -near; i <= near; ++i) try_neighbour(i, j);
+      for (int i = -near; i <= near; ++i) try_neighbour(i, j, between_corners);
     }
-    // Farther off, those next to the image of the vertical.
+    // Farther off, those next to the image of the vertical; away from the axis of the picture a
+    // pixel is a smaller angle.
     for (int k = near + 1; k <= static_cast<int>(reach); ++k) {
-      try_neighbour(std::round(k * upright.way.x), std::round(k * upright.way.y));
+      const double bent = 2.0 * std::tan(half_diagonal_rad) * k / beside_px_per_rad;
+      try_neighbour(std::round(k * upright.way.x), std::round(k * upright.way.y),
+                    between_corners - bent);
     }
     complete = best >= part.angle_rad + geometry_rad;
   });

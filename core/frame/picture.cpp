@@ -105,18 +105,19 @@ void put_ground_grid(const FrameReport& report, const PostLattice& lattice, doub
 }
 
 /// The parabola through the undulations at the eye and at eight places round it.
-void put_geoid(const FrameReport& report, const GeoidLookup& geoid, double cos_latitude,
-               shader::StyleBlock& style) {
+void put_geoid(const FrameReport& report, const GeoidLookup& geoid, Chart chart,
+               double cos_latitude, shader::StyleBlock& style) {
   if (geoid.undulation_m == nullptr) return;
   constexpr double share = 0.6;  // of the range: where the picture shows most ground
   const GeodeticPosition& eye = report.local.eye;
   const double north_deg = share * report.range_m / (deg * report.local.meridian_radius_m);
+  const double narrow = chart == Chart::geographic ? cos_latitude : 1.0;
   const double east_deg =
-      share * report.range_m / (deg * report.local.prime_vertical_radius_m * cos_latitude);
+      share * report.range_m / (deg * report.local.prime_vertical_radius_m * narrow);
   const auto at = [&](int e, int n) {
-    const double latitude_deg = std::clamp(eye.latitude_deg + n * north_deg, -90.0, 90.0);
-    const double value =
-        geoid.undulation_m(geoid.context, latitude_deg, eye.longitude_deg + e * east_deg);
+    const GroundPlace place = place_at(chart, eye, {e * east_deg, n * north_deg});
+    const double latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
+    const double value = geoid.undulation_m(geoid.context, latitude_deg, place.longitude_deg);
     return std::isnan(value) ? 0.0 : value;
   };
   const double here = at(0, 0), west = at(-1, 0), east = at(1, 0), south = at(0, -1);
@@ -175,13 +176,15 @@ shader::StyleBlock style_block(const FrameReport& report, const PostLattice& lat
   style.line.w = f(1.0 / report.range_m);
   const double cos_latitude = std::max(std::cos(report.local.eye.latitude_deg * deg), 1e-3);
   const bool ellipsoidal = geoid.undulation_m == nullptr;
-  style.post_step = {f(1.0 / (lattice.longitude_step_deg * deg *
-                              report.local.prime_vertical_radius_m * cos_latitude)),
-                     f(1.0 / (lattice.latitude_step_deg * deg * report.local.meridian_radius_m)),
-                     ellipsoidal ? 0.0f : f(geoid_sea_roughness_m),
-                     f(ellipsoidal ? sea_height_m : geoid_sea_height_m)};
-  put_ground_grid(report, lattice, cos_latitude, style);
-  put_geoid(report, geoid, cos_latitude, style);
+  const double narrow = lattice.polar() ? 1.0 : cos_latitude;
+  style.post_step = {
+      f(1.0 / (lattice.longitude_step_deg * deg * report.local.prime_vertical_radius_m * narrow)),
+      f(1.0 / (lattice.latitude_step_deg * deg * report.local.meridian_radius_m)),
+      ellipsoidal ? 0.0f : f(geoid_sea_roughness_m),
+      f(ellipsoidal ? sea_height_m : geoid_sea_height_m)};
+  // Lines of longitude run together at a pole: its chart has no ground grid.
+  if (!lattice.polar()) put_ground_grid(report, lattice, cos_latitude, style);
+  put_geoid(report, geoid, lattice.chart, cos_latitude, style);
   return style;
 }
 

@@ -30,28 +30,56 @@ GeoBox range_box(double latitude_deg, double longitude_deg, double range_m) {
 }
 
 LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double range_m,
-                        double gpu_bytes) {
-  const double latitude = std::min(std::abs(latitude_deg) + latitude_slack_deg, 89.0);
+                        double gpu_bytes, bool polar) {
+  const double highest_deg = polar ? 90.0 - polar_enter_deg(range_m) : 89.0;
+  const double latitude = std::min(std::abs(latitude_deg) + latitude_slack_deg, highest_deg);
   const GeoBox box = range_box(latitude, 0.0, range_m);
-  const double half_columns = 0.5 * (box.east_deg - box.west_deg) / lattice.longitude_step_deg;
-  const double half_rows = 0.5 * (box.north_deg - box.south_deg) / lattice.latitude_step_deg;
+  double half_columns = 0.5 * (box.east_deg - box.west_deg) / lattice.longitude_step_deg;
+  double half_rows = 0.5 * (box.north_deg - box.south_deg) / lattice.latitude_step_deg;
+  if (polar) {
+    const PostLattice at_pole = lattice_in(Chart::north_polar, lattice);
+    const double half = 0.5 * (box.north_deg - box.south_deg) / at_pole.latitude_step_deg;
+    half_columns = std::max(half_columns, half);
+    half_rows = std::max(half_rows, half);
+  }
   return level_sizes(half_columns + window_margin_posts, half_rows + window_margin_posts,
                      static_cast<std::int64_t>(gpu_bytes / gpu_bytes_per_post));
 }
 
 TerrainKeeper::TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
-                             std::span<HeldBlock> held, std::span<float> finest_posts)
-    : port_(port), lattice_(lattice), levels_(sizes, held), finest_posts_(finest_posts) {
+                             std::span<HeldBlock> held, std::span<float> finest_posts,
+                             double polar_range_m)
+    : port_(port),
+      geographic_(lattice),
+      lattice_(lattice),
+      polar_range_m_(polar_range_m),
+      levels_(sizes, held),
+      finest_posts_(finest_posts) {
   RL_ASSERT(finest_posts.size() >=
             static_cast<std::size_t>(sizes.columns()) * static_cast<std::size_t>(sizes.rows()));
 }
 
+bool TerrainKeeper::change_chart(const GeodeticPosition& eye) {
+  if (!(polar_range_m_ > 0)) return false;
+  const Chart chart = chart_for(lattice_.chart, eye.latitude_deg, polar_range_m_);
+  if (chart == lattice_.chart) return false;
+  lattice_ = lattice_in(chart, geographic_);
+  levels_.clear();
+  focus_ = {};
+  return true;
+}
+
 void TerrainKeeper::follow(const GeodeticPosition& eye, Renderer& renderer) {
-  eye_column_ = lattice_.column_near(eye.longitude_deg, eye_column_);
-  eye_row_ = lattice_.row_of(eye.latitude_deg);
+  const bool fresh = change_chart(eye);
+  const LatticePoint at = lattice_.point_of({eye.latitude_deg, eye.longitude_deg}, eye_column_);
+  eye_column_ = at.column;
+  eye_row_ = at.row;
   levels_.follow(eye_column_, eye_row_);
   arrived_ = 0;
   take_arrived(renderer);
+  order_missing();
+  if (!fresh) return;
+  take_arrived(renderer);  // nothing is left to draw from but what can be had at once
   order_missing();
 }
 
@@ -65,7 +93,8 @@ void TerrainKeeper::settle(const GeodeticPosition& eye, Renderer& renderer) {
 
 void TerrainKeeper::take_arrived(Renderer& renderer) {
   while (const TerrainBlock* block = port_.take()) {
-    if (block->edits < edits_) {  // built before the terrain changed
+    if (block->chart != lattice_.chart) continue;  // ordered before the chart changed
+    if (block->edits < edits_) {                   // built before the terrain changed
       levels_.release(block->id);
       continue;
     }
@@ -98,30 +127,46 @@ void TerrainKeeper::order_missing() {
   std::array<BlockId, limits::blocks_in_flight> wanted;
   const int room = std::min(port_.room(), limits::blocks_in_flight);
   const int count = levels_.next_wanted(std::span(wanted).first(static_cast<std::size_t>(room)));
-  for (int k = 0; k < count; ++k) port_.order({wanted[static_cast<std::size_t>(k)], edits_});
+  for (int k = 0; k < count; ++k) {
+    port_.order({wanted[static_cast<std::size_t>(k)], edits_, lattice_.chart});
+  }
+}
+
+bool TerrainKeeper::touches(const PostGrid& edited, const BlockId& id) const {
+  if (lattice_.polar()) {
+    PostGrid wide = edited;  // cells round a changed post change
+    wide.south_deg -= edited.latitude_step_deg;
+    wide.west_deg -= edited.longitude_step_deg;
+    wide.rows += 2;
+    wide.columns += 2;
+    PostBox box = block_region(id);
+    box.column -= 2;
+    box.row -= 2;
+    box.columns += 4;
+    box.rows += 4;
+    return overlaps(geo_box(lattice_, box), wide);
+  }
+  const double middle = 0.5 * (edited.west_deg + edited.east_deg());
+  const double shift = lattice_.column_near(middle, eye_column_) - lattice_.column_of(middle);
+  // A tile coarser than the lattice carries a changed post to its next posts.
+  const double more_columns = edited.longitude_step_deg / lattice_.longitude_step_deg;
+  const double more_rows = edited.latitude_step_deg / lattice_.latitude_step_deg;
+  const double west = std::floor(lattice_.column_of(edited.west_deg) + shift - more_columns);
+  const double east = std::ceil(lattice_.column_of(edited.east_deg()) + shift + more_columns);
+  const double south = std::floor(lattice_.row_of(edited.south_deg) - more_rows);
+  const double north = std::ceil(lattice_.row_of(edited.north_deg()) + more_rows);
+  const PostBox box = block_neighbourhood(id);
+  return box.column <= east && box.column + box.columns >= west && box.row <= north &&
+         box.row + box.rows >= south;
 }
 
 void TerrainKeeper::edit(std::span<const PostGrid> regions, Renderer& renderer) {
   edits_ += static_cast<int>(regions.size());
   for (const PostGrid& region : regions) {
-    const double middle = 0.5 * (region.west_deg + region.east_deg());
-    const double shift = lattice_.column_near(middle, eye_column_) - lattice_.column_of(middle);
-    // A tile coarser than the lattice carries a changed post to its next posts.
-    const double west = std::floor(lattice_.column_of(region.west_deg) + shift -
-                                   region.longitude_step_deg / lattice_.longitude_step_deg);
-    const double east = std::ceil(lattice_.column_of(region.east_deg()) + shift +
-                                  region.longitude_step_deg / lattice_.longitude_step_deg);
-    const double south = std::floor(lattice_.row_of(region.south_deg) -
-                                    region.latitude_step_deg / lattice_.latitude_step_deg);
-    const double north = std::ceil(lattice_.row_of(region.north_deg()) +
-                                   region.latitude_step_deg / lattice_.latitude_step_deg);
     levels_.over_held([&](const HeldBlock& held) {
-      const PostBox box = block_neighbourhood(held.id);
-      if (box.column > east || box.column + box.columns < west || box.row > north ||
-          box.row + box.rows < south) {
-        return;
-      }
-      if (const TerrainBlock* block = port_.build({held.id, edits_})) put(*block, renderer);
+      if (!touches(region, held.id)) return;
+      const TerrainBlock* block = port_.build({held.id, edits_, lattice_.chart});
+      if (block != nullptr) put(*block, renderer);
     });
   }
 }
@@ -133,10 +178,14 @@ double TerrainKeeper::covered_range_m(const GeodeticPosition& eye, double range_
   const double margin = window_margin_posts << (levels_.sizes().levels - 1);
   for (int step = 0; step < 120; ++step) {
     const GeoBox box = range_box(eye.latitude_deg, eye.longitude_deg, range);
-    const double half = 0.5 * (box.east_deg - box.west_deg) / lattice_.longitude_step_deg + margin;
-    const bool inside = eye_column_ - half >= rect.west && eye_column_ + half <= rect.east &&
-                        lattice_.row_of(box.south_deg) - margin >= rect.south &&
-                        lattice_.row_of(box.north_deg) + margin <= rect.north;
+    // In a polar chart no metre is longer in posts than along a meridian.
+    const double rows = 0.5 * (box.north_deg - box.south_deg) / lattice_.latitude_step_deg + margin;
+    const double columns =
+        lattice_.polar()
+            ? rows
+            : 0.5 * (box.east_deg - box.west_deg) / lattice_.longitude_step_deg + margin;
+    const bool inside = eye_column_ - columns >= rect.west && eye_column_ + columns <= rect.east &&
+                        eye_row_ - rows >= rect.south && eye_row_ + rows <= rect.north;
     if (inside) return range;
     range *= 0.96;
   }
@@ -167,6 +216,11 @@ double TerrainKeeper::height_below_m(double column, double row) const {
          (static_cast<double>(nw) * (1 - fx) + static_cast<double>(ne) * fx) * fy;
 }
 
+double TerrainKeeper::residual_near_m(const BlockId& id) const {
+  const HeldBlock* block = levels_.find(id);
+  return block == nullptr ? 0.0 : static_cast<double>(block->facts.residual_m);
+}
+
 /// Lower bound on the distance from the eye to the known ground of one cell, whatever is round it.
 double TerrainKeeper::cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
                                       double post_x, double post_y) const {
@@ -183,8 +237,9 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
   const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
   const double post_y = lattice_.latitude_step_deg * metres_per_degree;
-  const double post_x = lattice_.longitude_step_deg * metres_per_degree *
-                        std::max(std::cos(eye.latitude_deg * deg) - 1e-4, 1e-3);
+  const double narrow =
+      lattice_.polar() ? 1.0 : std::max(std::cos(eye.latitude_deg * deg) - 1e-4, 1e-3);
+  const double post_x = lattice_.longitude_step_deg * metres_per_degree * narrow;
   constexpr auto limit = static_cast<double>(void_threshold_m);
   double steepest_x = 0, steepest_y = 0, by_cells = std::numeric_limits<double>::infinity();
   bool unbroken = true;
@@ -199,16 +254,22 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
       steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
     }
   }
+  double residual = 0;  // what the truth may be nearer by
+  for (const std::int32_t c : {column - clearance_cells, column + clearance_cells + 1}) {
+    for (const std::int32_t r : {row - clearance_cells, row + clearance_cells + 1}) {
+      residual = std::max(residual, residual_near_m({0, c >> block_levels, r >> block_levels}));
+    }
+  }
   const double below = height_below_m(eye_column_, eye_row_);
   const double over = eye.height_m - below;
-  if (over <= 0.0) return {Clearance::Kind::below, least_clearance_m};
+  if (over + residual <= 0.0) return {Clearance::Kind::below, least_clearance_m};
   // Without a void the surface is Lipschitz within the cells looked at; a void may hide a jump.
   // What lies beyond them is at least that far off.
   const double by_slope =
       unbroken ? over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y) : 0.0;
   const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
   const double near = std::min(std::max(by_slope, by_cells), beyond);
-  return {Clearance::Kind::above, std::max(near, least_clearance_m)};
+  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m)};
 }
 
 Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
@@ -219,7 +280,8 @@ Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
                      row >= near.south && row < near.north;
   if (drawn) return near_clearance(eye);
   // Ground outside a block and one cell of its level round it may stand higher than the block says.
-  const double narrow = std::cos(std::min(std::abs(eye.latitude_deg) + 1.0, 90.0) * deg);
+  const double north_deg = std::min(std::abs(eye.latitude_deg) + 1.0, 90.0);
+  const double narrow = lattice_.polar() ? 1.0 : std::cos(north_deg * deg);
   const double post_m = metres_per_degree *
                         std::min(lattice_.latitude_step_deg, lattice_.longitude_step_deg * narrow);
   double least = 0;

@@ -32,10 +32,12 @@ class TerrainKeeper {
  public:
   /// Shape: held.size() >= sizes.levels * sizes.blocks(), finest_posts.size() >= sizes.columns() *
   ///        sizes.rows(): a copy of the finest level, for the ground under the eye.
+  /// `polar_range_m`: display range for which a polar chart takes over near a pole; 0: never.
   TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
-                std::span<HeldBlock> held, std::span<float> finest_posts);
+                std::span<HeldBlock> held, std::span<float> finest_posts, double polar_range_m = 0);
 
-  /// Moves the window to the eye, takes what has arrived and orders what is missing.
+  /// Moves the window to the eye, takes what has arrived and orders what is missing. Where the
+  /// chart changes the window starts afresh.
   void follow(const GeodeticPosition& eye, Renderer& renderer);
   /// Follows until nothing is missing; for boot, and for single pictures.
   void settle(const GeodeticPosition& eye, Renderer& renderer);
@@ -52,6 +54,11 @@ class TerrainKeeper {
   [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
 
  private:
+  /// Where the posts that an edit may change stand; over all turns.
+  [[nodiscard]] bool touches(const PostGrid& edited, const BlockId& id) const;
+  [[nodiscard]] double residual_near_m(const BlockId& id) const;
+  /// Changes the chart where the eye demands it; whether it did.
+  bool change_chart(const GeodeticPosition& eye);
   void take_arrived(Renderer& renderer);
   void put(const TerrainBlock& block, Renderer& renderer);
   void order_missing();
@@ -62,7 +69,8 @@ class TerrainKeeper {
   [[nodiscard]] Clearance near_clearance(const GeodeticPosition& eye) const;
 
   BlockPort& port_;
-  PostLattice lattice_;
+  PostLattice geographic_, lattice_;
+  double polar_range_m_;
   TerrainLevels levels_;
   std::span<float> finest_posts_;
   double eye_column_ = 0, eye_row_ = 0;
@@ -75,8 +83,8 @@ class TerrainKeeper {
 GeoBox range_box(double latitude_deg, double longitude_deg, double range_m);
 
 /// How large a window must be that covers the range round an eye near a latitude, within a budget
-/// of GPU bytes.
+/// of GPU bytes. `lattice`: in the geographic chart. `polar`: in a polar chart as well.
 LevelSizes window_sizes(const PostLattice& lattice, double latitude_deg, double range_m,
-                        double gpu_bytes);
+                        double gpu_bytes, bool polar = false);
 
 }  // namespace ridgeline

@@ -25,8 +25,8 @@ glm::vec4 vec4_of(const glm::dvec3& v, double w) {
 double largest_step_m(const GroundMap& map, const PostLattice& window) {
   const double range2 = map.range_m * map.range_m;
   double bend = 0;  // posts per m², largest sum of second derivatives over the range
-  const auto& a = map.latitude_deg;
-  const auto& b = map.longitude_deg;
+  const auto& a = map.north_deg;
+  const auto& b = map.east_deg;
   const double north = 2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) +
                        20 * std::abs(a[4]) + 2 * std::abs(a[5]) + 6 * std::abs(a[6]) +
                        12 * std::abs(a[7]) + 20 * std::abs(a[8]) + 12 * std::abs(a[9]) +
@@ -34,7 +34,9 @@ double largest_step_m(const GroundMap& map, const PostLattice& window) {
   const double east = 2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) +
                       20 * std::abs(b[4]) + 6 * std::abs(b[5]) + 12 * std::abs(b[6]) +
                       20 * std::abs(b[7]) + 20 * std::abs(b[8]);
-  bend = std::max(north / window.latitude_step_deg, east / window.longitude_step_deg) / range2;
+  const double rows = north / window.latitude_step_deg, columns = east / window.longitude_step_deg;
+  // A polar chart is turned against the eye's axes: either bend may lie along any axis.
+  bend = (window.polar() ? std::hypot(rows, columns) : std::max(rows, columns)) / range2;
   return std::sqrt(2.0 * slip_posts / std::max(bend, 1e-12));
 }
 
@@ -95,11 +97,13 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
       std::min(reach_m * (1 << (view.sizes.levels - 1)), 1.003 * map.range_m);
   b.tolerance = {f(sweep_end_m), f(map.swell_m[0]), f(1.0 / map.range_m), f(map.swell_m[1])};
   for (int k = 0; k < 11; ++k) {
-    b.latitude[k / 4][k % 4] = f(map.latitude_deg[k] / view.lattice.latitude_step_deg);
+    b.latitude[k / 4][k % 4] = f(map.north_deg[k] / view.lattice.latitude_step_deg);
   }
   for (int k = 0; k < 9; ++k) {
-    b.longitude[k / 4][k % 4] = f(map.longitude_deg[k] / view.lattice.longitude_step_deg);
+    b.longitude[k / 4][k % 4] = f(map.east_deg[k] / view.lattice.longitude_step_deg);
   }
+  const Turn turn = turn_of(view.lattice.chart, frame.eye);
+  b.turn = {f(turn.cosine), f(turn.sine), 0.0f, 0.0f};
   auto& g = blocks.grid;
   g.grid = {grid.plane_count, grid.row_count, grid.used ? 1 : 0, 0};
   if (!grid.used) return blocks;
@@ -121,6 +125,12 @@ double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const PostL
   double widest_rad = 0;
   for (const PolarGrid::Segment& segment : grid.planes) {
     widest_rad = std::max(widest_rad, 1.0 / segment.density);
+  }
+  if (lattice.polar()) {
+    constexpr double smallest_scale = 0.99;  // of a parallel, within 12 degrees of the pole
+    const double post_m =
+        smallest_scale * lattice.latitude_step_deg * rad_per_deg * frame.meridian_radius_m;
+    return wedge_posts * post_m / (0.5 * widest_rad);
   }
   // The narrowest post within reach: that of the highest latitude looked at.
   const double reach_deg = 1.01 * range_m / frame.meridian_radius_m / rad_per_deg;

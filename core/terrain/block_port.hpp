@@ -5,10 +5,12 @@
 
 namespace ridgeline {
 
-/// One block that is wanted, with the first so many edits in it.
+/// One block that is wanted, with the first so many edits in it, on the session's lattice in a
+/// chart.
 struct BlockOrder {
   BlockId id;
   int edits = 0;
+  Chart chart = Chart::geographic;
 };
 
 /// Whoever reads raw tiles and builds blocks from them; implemented by platform/ on a thread of its

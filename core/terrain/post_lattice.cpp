@@ -72,6 +72,23 @@ double PostLattice::column_near(double longitude_deg, double near_column) const 
   return column + circle * std::round((near_column - column) / circle);
 }
 
+GroundPlace PostLattice::place_of(double column, double row) const {
+  if (!polar()) return {latitude_deg(row), longitude_deg(column)};
+  return polar_place(chart, {column * longitude_step_deg, row * latitude_step_deg});
+}
+
+LatticePoint PostLattice::point_of(const GroundPlace& place, double near_column) const {
+  if (!polar()) return {column_near(place.longitude_deg, near_column), row_of(place.latitude_deg)};
+  const ChartPoint point = polar_point(chart, place);
+  return {point.east_deg / longitude_step_deg, point.north_deg / latitude_step_deg};
+}
+
+PostLattice lattice_in(Chart chart, const PostLattice& geographic) {
+  if (chart == Chart::geographic) return geographic;
+  const double step = 0.5 * geographic.latitude_step_deg;
+  return {0.0, 0.0, step, step, chart};
+}
+
 AxisFit fit_rows(const PostLattice& lattice, const PostGrid& tile) {
   return fit_axis(lattice.origin_latitude_deg, lattice.latitude_step_deg, tile.south_deg,
                   tile.latitude_step_deg);

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/geo/local_frame.hpp"
+#include "core/geo/chart.hpp"
 #include "core/terrain/height_tile.hpp"
 #include "core/terrain/tile_location.hpp"
 
@@ -15,12 +15,26 @@ struct PostIndex {
   std::int32_t column = 0, row = 0;
 };
 
-/// The endless regular grid that the terrain window is cut from: the finest grid on which every
-/// post of the tiles lies. Fixed for a session.
-/// Frame: WGS 84 latitude and longitude, degrees; rows northwards, columns eastwards.
+/// A place on the lattice, in posts from its origin.
+struct LatticePoint {
+  double column = 0, row = 0;
+};
+
+/// The endless regular grid that the terrain window is cut from. In the geographic chart it is the
+/// finest grid on which every post of the tiles lies, fixed for a session; in a polar chart a
+/// square grid from the pole, on which no post of a tile needs to lie. Frame: WGS 84 latitude and
+/// longitude, degrees; rows northwards, columns eastwards. In a polar
+///        chart rows and columns are `north` and `east` of that chart, and the functions of one
+///        coordinate have no meaning.
 struct PostLattice {
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
   double latitude_step_deg = 0, longitude_step_deg = 0;
+  Chart chart = Chart::geographic;
+
+  [[nodiscard]] bool polar() const { return chart != Chart::geographic; }
+  [[nodiscard]] GroundPlace place_of(double column, double row) const;
+  /// The point of a place; in the geographic chart on the turn nearest to `near_column`.
+  [[nodiscard]] LatticePoint point_of(const GroundPlace& place, double near_column) const;
 
   [[nodiscard]] double latitude_deg(double row) const {
     return origin_latitude_deg + row * latitude_step_deg;
@@ -38,6 +52,10 @@ struct PostLattice {
   /// The column of a longitude on the turn nearest to `near_column`.
   [[nodiscard]] double column_near(double longitude_deg, double near_column) const;
 };
+
+/// The lattice of a chart for a session whose lattice in the geographic chart is `geographic`: half
+/// its latitude step both ways in a polar chart.
+PostLattice lattice_in(Chart chart, const PostLattice& geographic);
 
 /// How one axis of a tile lies on the lattice: post k of the tile is lattice post first + k *
 /// ratio.

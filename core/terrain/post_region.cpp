@@ -158,7 +158,44 @@ void add_undulation(const TerrainSource& source, const PostBox& box, int stride,
 
 }  // namespace
 
+namespace {
+
+/// Latitudes and longitudes of a box in a polar chart, rounded outwards.
+GeoBox polar_geo_box(const PostLattice& lattice, const PostBox& box) {
+  constexpr double slack_deg = 1e-9;
+  const double west = box.column, east = box.column + box.columns - 1;
+  const double south = box.row, north = box.row + box.rows - 1;
+  const double farthest = std::hypot(std::max(std::abs(west), std::abs(east)),
+                                     std::max(std::abs(south), std::abs(north)));
+  const double nearest = std::hypot(std::max({0.0, west, -east}), std::max({0.0, south, -north}));
+  const double far_deg = std::min(farthest * lattice.latitude_step_deg + slack_deg, 180.0);
+  const double near_deg = std::max(nearest * lattice.latitude_step_deg - slack_deg, 0.0);
+  GeoBox result;
+  const bool at_north = lattice.chart == Chart::north_polar;
+  result.south_deg = at_north ? 90.0 - far_deg : near_deg - 90.0;
+  result.north_deg = at_north ? 90.0 - near_deg : far_deg - 90.0;
+  if (near_deg <= 0.0) {
+    result.west_deg = -180.0;
+    result.east_deg = 180.0;
+    return result;
+  }
+  const double middle = lattice.place_of(0.5 * (west + east), 0.5 * (south + north)).longitude_deg;
+  double half = 0;
+  for (const double column : {west, east}) {
+    for (const double row : {south, north}) {
+      const double longitude = lattice.place_of(column, row).longitude_deg;
+      half = std::max(half, std::abs(std::remainder(longitude - middle, 360.0)));
+    }
+  }
+  result.west_deg = middle - half - slack_deg;
+  result.east_deg = middle + half + slack_deg;
+  return result;
+}
+
+}  // namespace
+
 GeoBox geo_box(const PostLattice& lattice, const PostBox& box) {
+  if (lattice.polar()) return polar_geo_box(lattice, box);
   GeoBox result;
   result.south_deg = lattice.latitude_deg(box.row);
   result.west_deg = lattice.longitude_deg(box.column);
@@ -169,6 +206,7 @@ GeoBox geo_box(const PostLattice& lattice, const PostBox& box) {
 
 RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geoid_stride,
                         std::span<float> posts, std::span<float> scratch) {
+  RL_ASSERT(!source.lattice.polar());
   RL_ASSERT(posts.size() ==
             static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns));
   RL_ASSERT(scratch.size() >= 4 * static_cast<std::size_t>(box.columns) + 8);

@@ -8,6 +8,7 @@
 
 #include "core/base/assert.hpp"
 #include "core/geo/local_frame.hpp"
+#include "core/terrain/polar_region.hpp"
 #include "core/terrain/void_floor.hpp"
 
 namespace ridgeline {
@@ -294,9 +295,9 @@ double Builder::steepness(double east_m, double north_m) const {
 void put_ball(const PostLattice& lattice, const BlockId& id, BlockFacts& facts) {
   const int span = block_posts << id.level;
   const auto place = [&](double x, double y, double height_m) {
-    const double latitude = std::clamp(lattice.latitude_deg(id.row * span + y * span), -90.0, 90.0);
+    const GroundPlace at = lattice.place_of(id.column * span + x * span, id.row * span + y * span);
     return ecef_from_geodetic(
-        {latitude, lattice.longitude_deg(id.column * span + x * span), height_m});
+        {std::clamp(at.latitude_deg, -90.0, 90.0), at.longitude_deg, height_m});
   };
   const double low =
       std::min(static_cast<double>(facts.lowest_m), static_cast<double>(facts.highest_m));
@@ -312,6 +313,47 @@ void put_ball(const PostLattice& lattice, const BlockId& id, BlockFacts& facts) 
   }
   constexpr double between_samples = 1.02;  // edges are arcs, bulging by L²/8R between the samples
   facts.radius_m = between_samples * radius + 20.0;
+}
+
+/// Adds what the truth can differ from the finest posts by, part by part.
+void add_gaps(const PolarCells& truth, std::span<const float> fine, int level, BlockFacts& facts) {
+  constexpr int part_posts = block_posts / residual_parts;
+  float largest = 0;
+  for (int part = 0; part < residual_parts * residual_parts; ++part) {
+    const int x = (margin + part % residual_parts * part_posts) << level;
+    const int y = (margin + part / residual_parts * part_posts) << level;
+    const PolarGap gap = polar_gap(truth, fine, x, y, part_posts << level);
+    facts.mixed = facts.mixed || gap.mixed;
+    facts.part_residual_m[static_cast<std::size_t>(part)] += gap.gap_m;
+    largest = std::max(largest, gap.gap_m);
+  }
+  facts.lowest_m -= largest;
+  facts.highest_m += largest;
+}
+
+/// A block in a polar chart: as any other from its finest posts on; but those stand for ranges.
+void build_polar_block(const TerrainSource& source, const BlockScratch& scratch,
+                       TerrainBlock& block) {
+  const BlockId& id = block.id;
+  const PostBox box = block_region(id);
+  const std::size_t cell_count = polar_cells(id.level);
+  RL_ASSERT(scratch.low.size() >= cell_count && scratch.high.size() >= cell_count);
+  const PolarCells truth{box, scratch.low.first(cell_count), scratch.high.first(cell_count)};
+  const std::span<float> fine = scratch.posts.first(static_cast<std::size_t>(box.rows) *
+                                                    static_cast<std::size_t>(box.columns));
+  const bool with_voids = read_polar_region(source, truth, fine);
+  Builder builder(id.level, fine, with_voids);
+  builder.settle();
+  builder.measure(block.facts);
+  builder.fill(block);
+  BlockFacts& facts = block.facts;
+  add_gaps(truth, fine, id.level, facts);
+  finish_residual(0.0, facts);
+  constexpr double smallest_scale = 0.99;  // of a parallel, within 12 degrees of the pole
+  const double post_m =
+      smallest_scale * source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
+  if (facts.residual_m > 0) facts.steepness = static_cast<float>(builder.steepness(post_m, post_m));
+  put_ball(source.lattice, id, facts);
 }
 
 }  // namespace
@@ -337,6 +379,14 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const PostBox box = block_region(id);
   const auto count = static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns);
   RL_ASSERT(scratch.posts.size() >= count);
+  block.id = id;
+  block.chart = source.lattice.chart;
+  block.edits = static_cast<int>(source.edits.size());
+  block.facts = {};
+  if (source.lattice.polar()) {
+    build_polar_block(source, scratch, block);
+    return;
+  }
   const std::span<float> fine = scratch.posts.first(count);
   const bool fine_posts =
       source.lattice.latitude_step_deg < widest_stride_deg / coarse_geoid_stride;
@@ -345,9 +395,6 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const bool with_voids =
       std::any_of(fine.begin(), fine.end(), [](float h) { return std::isnan(h); });
   if (with_voids) put_floors(source, box, far_floor_m, fine);
-  block.id = id;
-  block.edits = static_cast<int>(source.edits.size());
-  block.facts = {};
   Builder builder(id.level, fine, with_voids);
   builder.settle();
   builder.measure(block.facts);
@@ -362,7 +409,8 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const double east_m = source.lattice.longitude_step_deg * rad_per_deg * equator_radius_m *
                         std::cos(std::min(reach, 89.99) * rad_per_deg);
   const double north_m = source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
-  if (id.level > 0) facts.steepness = static_cast<float>(builder.steepness(east_m, north_m));
+  if (facts.residual_m > 0)
+    facts.steepness = static_cast<float>(builder.steepness(east_m, north_m));
   put_ball(source.lattice, id, facts);
 }
 

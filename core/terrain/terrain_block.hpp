@@ -36,11 +36,13 @@ struct BlockId {
 /// What a block says about itself, for the bound and for the march.
 struct BlockFacts {
   /// The true surface lies within this of the block's own bilinear surface, everywhere over its
-  /// known cells. 0 at level 0 unless tiles of different steps disagree there. m
+  /// known cells. 0 at level 0 unless tiles of different steps disagree there; in a polar chart the
+  /// cells of the tiles do not lie on those of the lattice, and level 0 has one too. m
   float residual_m = 0;
   /// The same for each of 4 x 4 parts, row-major from the south-west.
   std::array<float, residual_parts * residual_parts> part_residual_m{};
-  float steepness = 0;  ///< largest slope of the true surface over its known cells; levels >= 1
+  /// Largest slope of the surface at the finest posts; 0 where the residual is 0.
+  float steepness = 0;
   float lowest_m = 0, highest_m = 0;  ///< of posts, truth and floors; highest < lowest: none
   std::int32_t known_posts = 0;       ///< of the block's own posts
   std::int32_t void_posts = 0;
@@ -54,6 +56,7 @@ struct BlockFacts {
 
 struct TerrainBlock {
   BlockId id;
+  Chart chart = Chart::geographic;
   int edits = 0;  ///< the block knows the first so many edits
   BlockFacts facts;
   std::array<float, block_posts * block_posts> posts{};  ///< row-major from the south-west
@@ -63,17 +66,23 @@ struct TerrainBlock {
   std::array<float, block_nodes> highest{};
 };
 
-/// Memory a block is built in. Shape: `posts` >= region_posts(level)^2, `rows` >=
-/// row_scratch(level).
+/// Memory a block is built in. Shape: `posts` >= region_side(level)^2, `rows` >=
+/// row_scratch(level); in a polar chart `low` and `high` >= polar_cells(level).
 struct BlockScratch {
   std::span<float> posts;
   std::span<float> rows;
+  std::span<float> low{}, high{};
 };
 constexpr int region_side(int level) {
   return ((block_posts + 4) << level) + 1;
 }
 constexpr int row_scratch(int level) {
   return 4 * region_side(level) + 8;
+}
+
+constexpr std::size_t polar_cells(int level) {
+  const auto side = static_cast<std::size_t>(region_side(level)) + 1;
+  return side * side;
 }
 
 /// Builds one block from the raw tiles.

@@ -79,9 +79,14 @@ Outcome Session::open_folder(const GeodeticPosition& first) {
     const FileProblem& first_problem = folder_->refused().front();
     return {first_problem.fault, first_problem.message};
   }
-  lattice_ = lattice_of(folder_->grids(), first);
-  window_ = window_sizes(lattice_, first.latitude_deg, options_.settings.range_m,
-                         options_.terrain_gpu_bytes);
+  const std::vector<PostGrid> grids = folder_->grids();
+  lattice_ = lattice_of(grids, first);
+  const double range_m = options_.settings.range_m;
+  const GeoBox cap = range_box(90.0 - polar_leave_deg(range_m), 0.0, range_m);
+  polar_ = std::any_of(grids.begin(), grids.end(), [&](const PostGrid& grid) {
+    return std::max(grid.north_deg(), -grid.south_deg) > cap.south_deg;
+  });
+  window_ = window_sizes(lattice_, first.latitude_deg, range_m, options_.terrain_gpu_bytes, polar_);
   return {};
 }
 
@@ -124,12 +129,13 @@ void Session::open_terrain(double far_floor) {
                            ? BlockWorker::Arrival::as_ready
                            : BlockWorker::Arrival::in_step;
   worker_ = std::make_unique<BlockWorker>(
-      *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival,
+      *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival, polar_,
                                       options_.read_delay_us});
   worker_->know_edits(core_edits_);
   held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
   finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
-  terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_);
+  terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_,
+                   polar_ ? options_.settings.range_m : 0.0);
 }
 
 Outcome Session::open_renderer() {

@@ -100,6 +100,7 @@ class Session {
   std::vector<PostGrid> edit_grids_;
   std::size_t edits_applied_ = 0;
   bool settled_ = false;
+  bool polar_ = false;  ///< some tile lies where a polar chart is used
   std::vector<PlaneRecord> planes_;
   std::vector<float> slopes_;
   std::vector<std::uint8_t> text_;
