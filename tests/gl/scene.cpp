@@ -107,6 +107,14 @@ Scene::Scene(const Land& land, sim::SceneOptions options, const GeodeticPosition
   require(session_.open(options_, first));
 }
 
+Scene::Scene(const std::string& land_path, const ImageGeometry& image, double error_px,
+             double range_m, const GeodeticPosition& first, sim::SceneOptions::Arrival arrival)
+    : options_(scene_options(image, error_px, range_m)) {
+  options_.terrain_folder = land_path;
+  options_.arrival = arrival;
+  require(session_.open(options_, first));
+}
+
 sim::Picture Scene::draw(const Pose& pose, double time_s) {
   FrameInput input;
   input.time_ns = std::llround(time_s * 1e9);

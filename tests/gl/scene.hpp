@@ -55,6 +55,10 @@ class Scene {
  public:
   Scene(const Land& land, const ImageGeometry& image, double error_px, double range_m,
         const GeodeticPosition& first);
+  /// Over a folder of tiles that outlives the scene.
+  Scene(const std::string& land_path, const ImageGeometry& image, double error_px, double range_m,
+        const GeodeticPosition& first,
+        sim::SceneOptions::Arrival arrival = sim::SceneOptions::Arrival::settled);
 
   /// The same with every option of a session; its terrain folder is that of the land.
   Scene(const Land& land, sim::SceneOptions options, const GeodeticPosition& first);
