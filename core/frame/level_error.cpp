@@ -10,14 +10,17 @@ namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double view_margin_rad = 0.09;      ///< the disc of the largest bound
+constexpr double down_margin_rad = 2e-3;      ///< the turn itself, and the length of a block's part
 constexpr double widest_off_axis_rad = 1.45;  ///< farther off, a block counts for the whole picture
 constexpr double smallest_radius_m = 6'335'000.0;
 constexpr double chord_share = 0.99;  ///< of a distance in latitude and longitude, at 200 km
 constexpr double neighbour_px = 0.7071;
 constexpr double all_neighbours_px = 4.0;  ///< so far every pixel is tried
 constexpr double between_corners = 0.995;  ///< a part's inside against its corners
+constexpr double slant_slack = 0.97e-4;    ///< of the contract's 1e-4 along the ray
 constexpr double near_vertical = 0.2;      ///< sine of the angle to straight up or down
 constexpr double least_grip = 0.05;        ///< below it a turn of the ray wins no height
+constexpr double steep_grip = 0.3;
 constexpr double no_bound_rad = 1e3;
 
 /// The shortest a degree between columns gets up to a latitude, over one of the smallest radius. In
@@ -140,9 +143,18 @@ double steepest_look_rad(const Camera& camera) {
 /// distance. A ray that looks down gains less height along its way by a turn, the more so as the
 /// ground rises towards it: at 90 degrees none, and distances to level ground cannot be bounded at
 /// all.
-double turn_rad(double residual_m, double away_m, double down_rad, double steepness) {
+///
+/// Both rays end over the same ground, but the higher one is shorter by turn * tan(down_rad): that
+/// much of the distance the contract lets go.
+/// `strict`: no bound where the ground is too steep for a turn to win height; else the turn is
+/// taken for ground that leaves it `steep_grip` (docs/error_bound.md, section 11, says what that
+/// leaves open).
+double turn_rad(double residual_m, double away_m, double down_rad, double steepness, bool strict) {
   if (residual_m <= 0) return 0.0;
+  const double level_rad = residual_m / away_m;
+  if (level_rad * std::sin(down_rad) <= slant_slack * std::cos(down_rad)) return level_rad;
   const double grip = std::cos(down_rad) - steepness * std::sin(std::max(down_rad, 0.0));
+  if (!strict) return residual_m / (away_m * std::max(grip, steep_grip));
   return grip > least_grip ? residual_m / (away_m * grip) : no_bound_rad;
 }
 
@@ -185,8 +197,8 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
   const TerrainView view = terrain.view();
   const double latitude_deg = local.eye.latitude_deg;
   const double half_diagonal_rad = camera.half_diagonal_rad(0.0);
-  const bool near_too = view.lattice.polar();  // else only far blocks are off, seen at a low angle
-  const double look_rad = near_too ? steepest_look_rad(camera) : 0.0;
+  const double look_rad = steepest_look_rad(camera);
+  const bool strict = view.lattice.polar();
   LevelError error;
   error.clear_range_m = range_m;
   for (int level = 0; level < view.sizes.levels; ++level) {
@@ -197,7 +209,7 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
       const BlockFacts& facts = block.facts;
       if (!(facts.residual_m > 0) && !facts.mixed) return;
       const double above_m = local.eye.height_m - static_cast<double>(facts.highest_m);
-      const double sight_m = near_too && look_rad > 0 ? above_m / std::sin(look_rad) : above_m;
+      const double sight_m = look_rad > 0 ? above_m / std::sin(look_rad) : above_m;
       const double least_m = std::max({sight_m, inner_m, clearance_m, 0.05});
       double angle_rad = 0;
       for (int part = 0; part < residual_parts * residual_parts; ++part) {
@@ -209,15 +221,11 @@ LevelError level_error(const TerrainKeeper& terrain, const LocalFrame& local, co
         if (facts.mixed) error.clear_range_m = std::min(error.clear_range_m, chord_share * away_m);
         const auto residual_m =
             static_cast<double>(facts.part_residual_m[static_cast<std::size_t>(part)]);
-        if (!near_too) {
-          angle_rad = std::max(angle_rad, residual_m / away_m);
-          continue;
-        }
         const double deep_m = local.eye.height_m - static_cast<double>(facts.lowest_m);
         const double down_rad =
-            std::atan2(deep_m, over_ground_m) + over_ground_m / smallest_radius_m + view_margin_rad;
+            std::atan2(deep_m, over_ground_m) + over_ground_m / smallest_radius_m + down_margin_rad;
         angle_rad = std::max(angle_rad, turn_rad(residual_m, away_m, std::min(down_rad, look_rad),
-                                                 static_cast<double>(facts.steepness)));
+                                                 static_cast<double>(facts.steepness), strict));
       }
       if (facts.mixed || angle_rad <= 0) return;
       const Sight sight = sight_of(facts, local, camera, half_diagonal_rad);

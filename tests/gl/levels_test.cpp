@@ -93,11 +93,11 @@ TEST_F(Levels, what_they_cost_is_in_the_bound) {
 TEST(RoughLevels, a_bound_that_cannot_be_kept_is_raised_and_still_true) {
   Land land(rough_m);
   land.add_tile(46, 8);
-  Scene scene(land, options_for(30'000, 2 * mebibyte), {46.5, 8.5, 3000});
+  Scene scene(land, options_for(30'000, 3 * mebibyte), {46.5, 8.5, 3000});
   ASSERT_GE(scene.session().window().levels, 2);
   double largest_px = 0;
   for (const double heading : {20.0, 160.0, 275.0}) {
-    const sim::Picture picture = scene.shoot({{46.5, 8.5, 4000}, {5, -8, heading}});
+    const sim::Picture picture = scene.shoot({{46.5, 8.5, 2300}, {5, -3, heading}});
     largest_px = std::max(largest_px, picture.report.bound_px);
   }
   EXPECT_GT(largest_px, 1.0);
@@ -181,8 +181,8 @@ TEST_F(Levels, a_peak_raised_in_flight_stands_in_the_very_next_frame) {
   // 7 x 7 posts 12 km ahead; later a void, and a peak far away in the coarsest level.
   std::ofstream(file) << "10 46.0 9.15 3 3 7 7 fill 3900\n"
                          "12 46.0 9.15 3 3 3 7 fill void\n"
-                         "14 46.05 9.55 3 3 5 5 fill 5200\n";
-  sim::SceneOptions o = options();
+                         "14 46.05 9.55 3 3 5 5 fill 2000\n";
+  sim::SceneOptions o = options_for(60'000, 8 * mebibyte);
   o.edit_file = file;
   Scene scene(land(), o, {46.0, 9.0, 2000});
   const Pose pose = over(46.0, 9.0, 1200, {0, 0, 88});
