@@ -7,6 +7,8 @@
 #include <fstream>
 #include <memory>
 
+#include "platform/gl_counter.hpp"
+#include "platform/heap_counter.hpp"
 #include "tests/gl/scene.hpp"
 
 namespace ridgeline::test {
@@ -201,6 +203,45 @@ TEST_F(Levels, a_peak_raised_in_flight_stands_in_the_very_next_frame) {
   scene.shoot(pose, 12.0);
   scene.shoot(pose, 14.5);
   expect_no_violation(scene, 4 * pixels);
+}
+
+/// Kilobytes of memory of this process that no file stands behind.
+long anonymous_kib() {
+  std::ifstream status("/proc/self/status");
+  const std::string name = "RssAnon:";
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind(name, 0) == 0) return std::stol(line.substr(name.size()));
+  }
+  return 0;
+}
+
+TEST_F(Levels, ten_minutes_at_250_m_per_s_allocate_nothing_and_create_no_gl_object) {
+  sim::SceneOptions o = options_for(25'000, 3 * mebibyte);
+  o.settings.image = {64, 48, 60};
+  o.arrival = sim::SceneOptions::Arrival::in_step;
+  const GeodeticPosition start{45.25, 8.3, 3000};
+  Scene scene(land(), o, start);
+  ASSERT_GE(scene.session().window().levels, 2);
+  ASSERT_GT(heap_allocations_seen(), 1000U);  // both counters are linked in and count
+  ASSERT_GT(gl_creations_seen(), 20U);
+  std::uint64_t blocks = 0;
+  long after_a_minute_kib = 0;
+  for (int second = 0; second < 600; ++second) {
+    // 250 m/s to the north-east: 1.5 degrees of latitude in all would be 167 km; this is 150 km.
+    FrameInput input;
+    input.time_ns = second * 1'000'000'000LL;
+    input.eye = {start.latitude_deg + 0.00159 * second, start.longitude_deg + 0.00227 * second,
+                 3000};
+    input.attitude = {0, -5, 45};
+    const sim::Picture picture = scene.session().draw(input, false);
+    ASSERT_EQ(heap_allocations_counted(), 0U) << "in second " << second;
+    ASSERT_EQ(gl_creations_counted(), 0U) << "in second " << second;
+    ASSERT_NE(picture.report.availability.mode, Mode::removed) << second;
+    blocks += static_cast<std::uint64_t>(picture.report.window.blocks_arrived);
+    if (second == 60) after_a_minute_kib = anonymous_kib();
+  }
+  EXPECT_GT(blocks, 300U);  // the window has moved on all the way
+  EXPECT_LT(anonymous_kib(), after_a_minute_kib + 2048);
 }
 
 // --- hard places, in windows of one and of several levels ---------------------------------------
