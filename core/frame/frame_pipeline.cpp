@@ -107,7 +107,8 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   if (grid.used) {
     report.nodes = fill_grid_tables(report.camera, map.value(), grid, tables.planes, tables.slopes);
   }
-  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.view());
+  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.view(),
+                        report.window.highest_m);
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;

@@ -323,7 +323,6 @@ TerrainView TerrainKeeper::view() const {
   for (int l = 0; l < view.sizes.levels; ++l) {
     view.drawable[static_cast<std::size_t>(l)] = levels_.drawable(l);
   }
-  view.highest_m = summary().highest_m;
   return view;
 }
 

@@ -41,8 +41,8 @@ class TerrainKeeper {
   void follow(const GeodeticPosition& eye, Renderer& renderer);
   /// Follows until nothing is missing; for boot, and for single pictures.
   void settle(const GeodeticPosition& eye, Renderer& renderer);
-  /// Puts the first `count` edits into the terrain; blocks they touch are built anew at once.
-  /// `regions`: where each of the new edits changes posts, in order.
+  /// Puts the next edits into the terrain, as many as regions; blocks they touch are built anew at
+  /// once. `regions`: where each of them changes posts, in order.
   void edit(std::span<const PostGrid> regions, Renderer& renderer);
 
   /// Display range the window covers round the eye, at most `range_m`; 0 when nothing has arrived.

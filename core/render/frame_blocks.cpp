@@ -50,10 +50,6 @@ void put_window(const TerrainView& view, shader::FrameBlock& b) {
   b.window = {column & low_bits, row & low_bits, view.sizes.levels, 0};
   const int columns = view.sizes.columns(), rows = view.sizes.rows();
   b.level_size = {f(columns), f(rows), f(1.0 / columns), f(1.0 / rows)};
-  const auto wrapped = [](std::int32_t value, int count) {
-    const std::int32_t rest = value % count;
-    return rest < 0 ? rest + count : rest;
-  };
   for (int l = 0; l < view.sizes.levels; ++l) {
     b.level_eye[l] = {wrapped(column >> l, columns), wrapped(row >> l, rows), 0, 0};
     const PostRect& rect = view.drawable[static_cast<std::size_t>(l)];
@@ -77,7 +73,7 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
 }
 
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const TerrainView& view) {
+                         const PolarGrid& grid, const TerrainView& view, double highest_m) {
   FrameBlocks blocks{};
   auto& b = blocks.frame;
   const glm::dmat3& axes = camera.enu_from_camera.columns;
@@ -90,7 +86,7 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   b.eye.w = f(frame.eye.height_m - static_cast<double>(high));
   b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), 0.0f, high};
   const int largest_node = block_levels + view.sizes.levels - 1;
-  b.heights = {f(view.highest_m), 0.0f, f(largest_node), f(largest_step_m(map, view.lattice))};
+  b.heights = {f(highest_m), 0.0f, f(largest_node), f(largest_step_m(map, view.lattice))};
   const double reach_m = grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
   for (int l = 0; l < view.sizes.levels; ++l) b.level_reach[l].x = f(reach_m * (1 << l));
   const double sweep_end_m =

@@ -48,8 +48,9 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
                          const HeightRounding& rounding);
 
 /// Uniforms of one frame: double until here, float after.
+/// `highest_m`: of everything the window holds, floors of unknown ground too.
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
-                         const PolarGrid& grid, const TerrainView& view);
+                         const PolarGrid& grid, const TerrainView& view, double highest_m);
 
 /// Ground distance at which the half distance between two planes outgrows the overlap of the nodes
 /// of the finest level: up to here they prove whole wedges empty; those of level l up to 2^l times

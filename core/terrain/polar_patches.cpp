@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/terrain/post_index.hpp"
 
 namespace ridgeline {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr double slack_cells = 1e-6;  ///< rounding of places
 constexpr double outside_deg = 1e-6;  ///< a step over the edge of a tile
-constexpr double same_post_steps = 1e-3;
 constexpr double same_step = 1e-6;
 constexpr int chunk_cells = 64;  ///< read at once along a row
 constexpr double widest_run_deg = 30.0;
@@ -149,14 +149,6 @@ Range Walk::wanted_columns(const PostGrid& grid) const {
   const double east = (middle + 0.5 * width - grid.west_deg) / grid.longitude_step_deg;
   return {static_cast<int>(std::clamp(std::floor(west) - 1, 0.0, static_cast<double>(most))),
           static_cast<int>(std::clamp(std::ceil(east) + 1, 0.0, static_cast<double>(most)))};
-}
-
-/// The index of a coordinate among posts, or -1 where no post stands.
-int post_index(double value, double first, double step, int count) {
-  const double index = (value - first) / step;
-  const double nearest = std::round(index);
-  if (!(std::abs(index - nearest) <= same_post_steps)) return -1;
-  return nearest >= 0 && nearest < count ? static_cast<int>(nearest) : -1;
 }
 
 void Walk::share_post(const PostGrid& grid, int row, int column, float& low, float& high) const {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/terrain/post_index.hpp"
+
 namespace ridgeline {
 namespace {
 
-constexpr double same_step = 1e-6;        ///< relative
-constexpr double same_post_steps = 1e-3;  ///< posts this close are one
+constexpr double same_step = 1e-6;  ///< relative
 constexpr double touching_deg = 1e-9;
 
 bool same(double a, double b) {
@@ -45,14 +46,6 @@ Contact contact(const PostGrid& tile, const PostGrid& other) {
   return c;
 }
 
-/// The index of a coordinate among posts, or -1 where no post stands.
-int index_of(double value, double first, double step, int count) {
-  const double index = (value - first) / step;
-  const double nearest = std::round(index);
-  if (!(std::abs(index - nearest) <= same_post_steps)) return -1;
-  return nearest >= 0 && nearest < count ? static_cast<int>(nearest) : -1;
-}
-
 float own_post(const TerrainSource& source, const HeightTile& tile, int row, int column) {
   float post = 0;
   read_posts(tile, row, column, std::span(&post, 1));
@@ -65,7 +58,7 @@ void merge_other(const TerrainSource& source, const PostGrid& tile, const Height
                  const Contact& c, int row, int column, int first, int end, std::span<float> out) {
   const PostGrid& o = other.grid;
   const double latitude = tile.south_deg + row * tile.latitude_step_deg;
-  const int other_row = index_of(latitude, o.south_deg, o.latitude_step_deg, o.rows);
+  const int other_row = post_index(latitude, o.south_deg, o.latitude_step_deg, o.rows);
   if (other_row < 0) return;
   const double west = o.west_deg + c.shift_deg;
   const double east = o.east_deg() + c.shift_deg;
@@ -75,7 +68,7 @@ void merge_other(const TerrainSource& source, const PostGrid& tile, const Height
   const int high = static_cast<int>(std::min(to, end - 1.0));
   for (int k = low; k <= high; ++k) {
     const double longitude = tile.west_deg + k * tile.longitude_step_deg;
-    const int other_column = index_of(longitude, west, o.longitude_step_deg, o.columns);
+    const int other_column = post_index(longitude, west, o.longitude_step_deg, o.columns);
     if (other_column < 0) continue;
     float& post = out[static_cast<std::size_t>(k - column)];
     post = taller(post, own_post(source, other, other_row, other_column));

@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/terrain/post_index.hpp"
+
 namespace ridgeline {
 namespace {
-
-constexpr double same_post_steps = 1e-3;
-
-/// The index of a coordinate among posts, or -1 where no post stands.
-int index_of(double value, double first, double step, int count) {
-  const double index = (value - first) / step;
-  const double nearest = std::round(index);
-  if (!(std::abs(index - nearest) <= same_post_steps)) return -1;
-  return nearest >= 0 && nearest < count ? static_cast<int>(nearest) : -1;
-}
 
 /// One row of a tile through one edit.
 void apply_edit(const TerrainEdit& edit, const PostGrid& tile, int edit_row, int column,
@@ -32,7 +24,7 @@ void apply_edit(const TerrainEdit& edit, const PostGrid& tile, int edit_row, int
   for (std::ptrdiff_t k = first; k < end; ++k) {
     const double longitude =
         tile.west_deg + static_cast<double>(column + k) * tile.longitude_step_deg;
-    const int at = index_of(longitude, west, e.longitude_step_deg, e.columns);
+    const int at = post_index(longitude, west, e.longitude_step_deg, e.columns);
     if (at >= 0) {
       posts[static_cast<std::size_t>(k)] =
           edit.heights_m[static_cast<std::size_t>(edit_row) * static_cast<std::size_t>(e.columns) +
@@ -48,7 +40,7 @@ void apply_edits(std::span<const TerrainEdit> edits, const PostGrid& tile, int r
   const double latitude = tile.south_deg + row * tile.latitude_step_deg;
   for (const TerrainEdit& edit : edits) {
     const PostGrid& e = edit.grid;
-    const int at = index_of(latitude, e.south_deg, e.latitude_step_deg, e.rows);
+    const int at = post_index(latitude, e.south_deg, e.latitude_step_deg, e.rows);
     if (at >= 0) apply_edit(edit, tile, at, column, posts);
   }
 }

@@ -27,11 +27,6 @@ PostRect united(const PostRect& a, const PostRect& b) {
           std::max(a.north, b.north)};
 }
 
-std::int32_t wrapped(std::int32_t value, int count) {
-  const std::int32_t rest = value % count;
-  return rest < 0 ? rest + count : rest;
-}
-
 }  // namespace
 
 LevelSizes level_sizes(double half_columns, double half_rows, std::int64_t most_posts) {

@@ -28,6 +28,12 @@ struct LevelSizes {
 /// Result: the largest window of max_levels levels where even that does not reach so far.
 LevelSizes level_sizes(double half_columns, double half_rows, std::int64_t most_posts);
 
+/// An index in toroidal memory of `count` places.
+constexpr std::int32_t wrapped(std::int32_t index, int count) {
+  const std::int32_t rest = index % count;
+  return rest < 0 ? rest + count : rest;
+}
+
 /// Where a block stands in the memory of its level: toroidal, so that a block keeps its place as
 /// long as the window holds it.
 struct BlockSlot {
@@ -47,7 +53,6 @@ struct TerrainView {
   LevelSizes sizes;
   double eye_column = 0, eye_row = 0;           ///< lattice posts
   std::array<PostRect, max_levels> drawable{};  ///< of each level
-  double highest_m = 0;                         ///< of everything the window holds, floors too
 };
 
 /// One block's place in the window.
