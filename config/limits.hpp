@@ -11,7 +11,6 @@ inline constexpr double max_eye_height_m = 20'500.0;  ///< HAE
 inline constexpr double min_range_m = 1'000.0;
 inline constexpr double max_range_m = 200'000.0;
 inline constexpr double default_range_m = 100'000.0;
-inline constexpr double min_error_px = 0.25;
 inline constexpr double max_error_px = 64.0;
 inline constexpr double default_error_px = 1.0;
 inline constexpr int min_image_px = 16;

@@ -91,6 +91,12 @@ void EglSurface::release() {
   display_ = context_ = surface_ = nullptr;
 }
 
+void EglSurface::make_current() const {
+  if (context_ == nullptr || eglGetCurrentContext() == context_) return;
+  const EGLSurface surface = surface_ == nullptr ? EGL_NO_SURFACE : surface_;
+  eglMakeCurrent(display_, surface, surface, context_);
+}
+
 TimerFunctions EglSurface::timer_functions() const {
   TimerFunctions functions;
   const auto* list = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));

@@ -5,7 +5,8 @@
 namespace ridgeline {
 
 /// An OpenGL ES 3.1 context without a window: surfaceless where the platform has it, else a
-/// pbuffer. The context is current on the thread that made it until it is destroyed.
+/// pbuffer. The context is current on the thread that made it until
+/// another is made there.
 class EglSurface {
  public:
   /// Errors: Fault::egl_unavailable.
@@ -16,6 +17,8 @@ class EglSurface {
   EglSurface& operator=(const EglSurface&) = delete;
   ~EglSurface();
 
+  /// Makes the context current again on this thread, if it is not.
+  void make_current() const;
   /// Timer query entry points; empty where the driver lacks the extension.
   [[nodiscard]] TimerFunctions timer_functions() const;
   /// "renderer, version" of the driver.

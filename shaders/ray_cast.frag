@@ -70,6 +70,9 @@ Course course_of(Ray r) {
   return q;
 }
 
+// How far on from distance t the track may be taken as straight inside a cell.
+float straight_part(float t) { return heights.y + sqrt(2.0 * heights.y * t); }
+
 // Distance of the first known surface or, negative, of the first unknown floor; `sky` if none.
 // `size`: nodes of 2^size cells are looked at first.
 float first_hit(Ray r, float start, int size) {
@@ -117,6 +120,7 @@ float first_hit(Ray r, float start, int size) {
       continue;
     }
     Cell c = cell_at(cell, level);
+    leave = min(leave, straight_part(t));
     float unit = 1.0 / float(1 << level);
     vec2 inside = (at - vec2(level_low(cell, level))) * unit;
     vec3 gap = gap_along(c, inside, rate * unit, height, climb, bend);

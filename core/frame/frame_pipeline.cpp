@@ -11,21 +11,57 @@ namespace {
 
 constexpr int grid_attempts = 8;      ///< to fit the grid into its capacity
 constexpr double coarser = 1.5;       ///< wider spacing for the next attempt
+constexpr double least_share = 2.0;   ///< of the height over the lowest ground: a cut range's least
 constexpr double bound_growth = 1.1;  ///< step by which a bound that cannot be met is raised
 
-/// The smallest bound not below the wanted one that this pose and this terrain allow; where
-/// completeness is what does not allow it, the smallest of a few steps.
-Result<ErrorBudget> honest_budget(const FrameSettings& settings, const Camera& camera,
-                                  const GroundMap& map, const LevelError& levels,
-                                  const HeightRounding& rounding) {
-  ErrorBudget budget = error_budget(camera, map, levels.angle_px, rounding);
+/// The display range of a frame, and what it can promise for it.
+struct Promise {
+  double range_m = 0;
+  GroundMap map;
+  ErrorBudget budget;
+};
+
+/// The smallest bound not below the wanted one that this pose and this terrain allow over a range;
+/// where completeness is what does not allow it, the smallest of a few steps.
+Result<Promise> promise_over(const FrameSettings& settings, const FrameReport& report,
+                             const TerrainKeeper& terrain, const Clearance& clearance,
+                             const LevelError& levels) {
+  const auto map = ground_map(report.local, levels.clear_range_m, terrain.lattice().chart);
+  if (!map) return map.fault();
+  const HeightRounding rounding{
+      std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
+      clearance.relief_m, clearance.distance_m};
+  Promise promise{levels.clear_range_m, map.value(), {}};
+  ErrorBudget& budget = promise.budget;
+  budget = error_budget(report.camera, map.value(), levels.angle_px, levels.steepest, rounding);
   double bound_px = std::max(settings.error_px, budget.smallest_px());
   for (; bound_px <= limits::max_error_px; bound_px *= bound_growth) {
-    if (!stays_complete(camera, bound_px, levels, budget.geometry_rad)) continue;
+    if (!stays_complete(report.camera, bound_px, levels, budget.geometry_rad)) continue;
     budget.epsilon_px = bound_px;
-    return budget;
+    return promise;
   }
   return Fault::no_error_bound;
+}
+
+/// What this frame can promise: over as much of the range as can be drawn or, where that allows no
+/// bound, over the part of it in which the posts themselves are drawn.
+Result<Promise> honest_promise(const FrameSettings& settings, const FrameReport& report,
+                               const TerrainKeeper& terrain, const Clearance& clearance) {
+  LevelError levels =
+      level_error(terrain, report.local, report.camera, report.range_m, clearance.distance_m);
+  // A range that ends before the ground below would show sky where there is none.
+  const double deep_m = report.local.eye.height_m - report.window.lowest_m;
+  const double least_m =
+      std::max(limits::min_range_m, std::min(levels.known_range_m, least_share * deep_m));
+  Result<Promise> promise = Fault::no_error_bound;
+  if (levels.clear_range_m >= least_m) {
+    promise = promise_over(settings, report, terrain, clearance, levels);
+  }
+  const double exact_m = levels.exact_range_m;
+  if (promise || exact_m < least_m || exact_m >= levels.clear_range_m) return promise;
+  levels = level_error(terrain, report.local, report.camera, exact_m, clearance.distance_m);
+  if (levels.clear_range_m < least_m) return promise;
+  return promise_over(settings, report, terrain, clearance, levels);
 }
 
 /// The grid as dense as wanted, or as its capacity allows: spacing costs time, never a pixel.
@@ -82,21 +118,14 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   const Clearance clearance = terrain.clearance(input.eye);
   if (clearance.kind == Clearance::Kind::below) return removed(report, Reason::below_terrain);
   if (clearance.kind == Clearance::Kind::undecided) return removed(report, Reason::terrain_loading);
-  const LevelError levels =
-      level_error(terrain, report.local, report.camera, report.range_m, clearance.distance_m);
-  report.range_m = levels.clear_range_m;
-  if (report.range_m < limits::min_range_m) return removed(report, Reason::no_bound);
-  if (report.range_m < settings.range_m) add_reason(report.availability, Reason::range_reduced);
 
-  // Ground map and error budget.
-  const auto map = ground_map(report.local, report.range_m, terrain.lattice().chart);
-  const HeightRounding rounding{
-      std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
-      clearance.distance_m};
-  const auto budget = map ? honest_budget(settings, report.camera, map.value(), levels, rounding)
-                          : Result<ErrorBudget>(map.fault());
-  if (!budget) return removed(report, Reason::no_bound);
-  report.budget = budget.value();
+  // Error budget: range, ground map and bound.
+  const auto promise = honest_promise(settings, report, terrain, clearance);
+  if (!promise) return removed(report, Reason::no_bound);
+  const GroundMap& map = promise.value().map;
+  report.range_m = promise.value().range_m;
+  report.budget = promise.value().budget;
+  if (report.range_m < settings.range_m) add_reason(report.availability, Reason::range_reduced);
   report.bound_px = report.budget.epsilon_px;
   if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
   if (refused_tiles > 0) add_reason(report.availability, Reason::tile_refused);
@@ -105,10 +134,10 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   // Projected grid, error buffer, ray cast.
   PolarGrid grid = grid_for(settings, renderer.sizes(), report.camera);
   if (grid.used) {
-    report.nodes = fill_grid_tables(report.camera, map.value(), grid, tables.planes, tables.slopes);
+    report.nodes = fill_grid_tables(report.camera, map, grid, tables.planes, tables.slopes);
   }
-  blocks = frame_blocks(report.local, report.camera, map.value(), grid, terrain.view(),
-                        report.window.highest_m);
+  blocks =
+      frame_blocks(report.local, report.camera, map, grid, terrain.view(), report.window.highest_m);
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;

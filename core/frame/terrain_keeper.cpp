@@ -11,7 +11,8 @@ namespace ridgeline {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
-constexpr double least_clearance_m = 0.05;
+constexpr double least_height_m = 0.05;  ///< over the ground; lower counts as below it
+constexpr double least_clearance_m = 1e-3;
 constexpr int window_margin_posts = 4;  ///< posts beyond the range that nodes may look at
 constexpr int clearance_cells = 8;
 constexpr double metres_per_degree = 110'574.0;  ///< of latitude at the equator, the smallest
@@ -224,13 +225,28 @@ double TerrainKeeper::residual_near_m(const BlockId& id) const {
 /// Lower bound on the distance from the eye to the known ground of one cell, whatever is round it.
 double TerrainKeeper::cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
                                       double post_x, double post_y) const {
-  const float highest = std::max(
-      {finest_post(c, r), finest_post(c + 1, r), finest_post(c, r + 1), finest_post(c + 1, r + 1)});
+  const std::array<float, 4> posts{finest_post(c, r), finest_post(c + 1, r), finest_post(c, r + 1),
+                                   finest_post(c + 1, r + 1)};
+  const float highest = *std::max_element(posts.begin(), posts.end());
   if (highest < void_threshold_m) return std::numeric_limits<double>::infinity();
   const double x = post_x * std::max({0.0, c - eye_column_, eye_column_ - (c + 1)});
   const double y = post_y * std::max({0.0, r - eye_row_, eye_row_ - (r + 1)});
-  const double over = std::max(0.0, eye.height_m - static_cast<double>(highest));
-  return std::sqrt(x * x + y * y + over * over);
+  const double away2 = x * x + y * y;
+  double over = std::max(0.0, eye.height_m - static_cast<double>(highest));
+  if (*std::min_element(posts.begin(), posts.end()) > void_threshold_m) {
+    // From the point of the cell nearest to the eye the ground rises by its slope at most.
+    const auto post = [&](std::size_t k) { return static_cast<double>(posts[k]); };
+    const double fx = std::clamp(eye_column_ - c, 0.0, 1.0);
+    const double fy = std::clamp(eye_row_ - r, 0.0, 1.0);
+    const double nearest_m =
+        (post(0) * (1 - fx) + post(1) * fx) * (1 - fy) + (post(2) * (1 - fx) + post(3) * fx) * fy;
+    const double east = std::max(std::abs(post(1) - post(0)), std::abs(post(3) - post(2))) / post_x;
+    const double north =
+        std::max(std::abs(post(2) - post(0)), std::abs(post(3) - post(1))) / post_y;
+    const double gap_m = std::max(0.0, eye.height_m - nearest_m);
+    over = std::max(over, gap_m / std::sqrt(1.0 + east * east + north * north));
+  }
+  return std::sqrt(away2 + over * over);
 }
 
 Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
@@ -242,6 +258,7 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const double post_x = lattice_.longitude_step_deg * metres_per_degree * narrow;
   constexpr auto limit = static_cast<double>(void_threshold_m);
   double steepest_x = 0, steepest_y = 0, by_cells = std::numeric_limits<double>::infinity();
+  double relief_m = 0;
   bool unbroken = true;
   for (std::int32_t r = row - clearance_cells; r <= row + clearance_cells; ++r) {
     for (std::int32_t c = column - clearance_cells; c <= column + clearance_cells; ++c) {
@@ -252,6 +269,9 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
       unbroken = unbroken && std::min({h, right, up}) > limit;
       steepest_x = std::max(steepest_x, std::abs(right - h) / post_x);
       steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
+      const auto across = static_cast<double>(finest_post(c + 1, r + 1));
+      const double lowest = std::min({h, right, up, across});
+      if (lowest > limit) relief_m = std::max(relief_m, std::max({h, right, up, across}) - lowest);
     }
   }
   double residual = 0;  // what the truth may be nearer by
@@ -262,14 +282,16 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   }
   const double below = height_below_m(eye_column_, eye_row_);
   const double over = eye.height_m - below;
-  if (over + residual <= 0.0) return {Clearance::Kind::below, least_clearance_m};
+  if (over + residual <= least_height_m) {
+    return {Clearance::Kind::below, least_clearance_m, relief_m};
+  }
   // Without a void the surface is Lipschitz within the cells looked at; a void may hide a jump.
   // What lies beyond them is at least that far off.
   const double by_slope =
       unbroken ? over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y) : 0.0;
   const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
   const double near = std::min(std::max(by_slope, by_cells), beyond);
-  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m)};
+  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m), relief_m};
 }
 
 Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
@@ -284,14 +306,16 @@ Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
   const double narrow = lattice_.polar() ? 1.0 : std::cos(north_deg * deg);
   const double post_m = metres_per_degree *
                         std::min(lattice_.latitude_step_deg, lattice_.longitude_step_deg * narrow);
-  double least = 0;
+  double least = 0, relief_m = 0;
   for (int level = 1; level < levels_.sizes().levels; ++level) {
     const HeldBlock* block = levels_.find({level, column >> (6 + level), row >> (6 + level)});
     if (block == nullptr) continue;
     const double over = eye.height_m - static_cast<double>(block->facts.highest_m);
     least = std::max(least, std::min(over, post_m * (1 << level)));
+    relief_m =
+        std::max(relief_m, static_cast<double>(block->facts.highest_m - block->facts.lowest_m));
   }
-  if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m)};
+  if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m), relief_m};
   return {};
 }
 

@@ -22,7 +22,8 @@ struct WindowSummary {
 struct Clearance {
   enum class Kind : std::uint8_t { above, below, undecided };
   Kind kind = Kind::undecided;  ///< undecided: too little terrain has arrived below the eye
-  double distance_m = 0;  ///< lower bound on the distance to the known surface, at least 0.05 m
+  double distance_m = 0;        ///< lower bound on the distance to the known surface, at least 1 mm
+  double relief_m = 0;          ///< largest difference of heights inside one cell near the eye
 };
 
 /// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them

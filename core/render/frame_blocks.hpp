@@ -23,16 +23,14 @@ struct ErrorBudget {
   double geometry_rad = 0;  ///< the same as an angle
   double level_px = 0;      ///< and what coarser levels of the window use of it
 
-  /// The smallest bound these terms allow: all of them together, and twice the geometry, so that
-  /// an exact picture is complete up to rounding.
-  [[nodiscard]] double smallest_px() const {
-    return std::max(geometry_px + level_px, 2.0 * geometry_px);
-  }
+  /// The smallest bound these terms allow.
+  [[nodiscard]] double smallest_px() const { return geometry_px + level_px; }
 };
 
 /// What rounding of heights in float32 depends on.
 struct HeightRounding {
   double largest_m = 0;    ///< largest magnitude of a height in the window
+  double relief_m = 0;     ///< largest difference of heights inside one cell near the eye
   double clearance_m = 0;  ///< lower bound on the distance to the terrain
 };
 
@@ -43,9 +41,13 @@ struct FrameBlocks {
 };
 
 /// What the error of a frame is made of; the promise itself is still to be chosen.
-/// Units:  px. `level_px`: what the levels of the window add. docs/error_bound.md, section 4.
+/// Units:  px. `level_px`: what the levels of the window add. `steepest`: largest slope of the
+///         ground in view. docs/error_bound.md, section 4.
 ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
-                         const HeightRounding& rounding);
+                         double steepest, const HeightRounding& rounding);
+
+/// What no frame of this camera can promise less than, wherever it is: rounding alone.
+double smallest_error_px(const Camera& camera);
 
 /// Uniforms of one frame: double until here, float after.
 /// `highest_m`: of everything the window holds, floors of unknown ground too.

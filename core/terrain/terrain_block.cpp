@@ -14,7 +14,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr int margin = 2;                        ///< cells of the level on every side of the block
+constexpr int margin = region_margin;
 constexpr int cells = block_posts + 2 * margin;  ///< a side of the region
 constexpr int corners = cells + 1;
 constexpr float nothing = -1e9F;
@@ -52,7 +52,8 @@ class Builder {
   void settle();
   void measure(BlockFacts& facts) const;
   void fill(TerrainBlock& block) const;
-  [[nodiscard]] double steepness(double east_m, double north_m) const;
+  /// Puts the slopes of finest posts `east_m` and `north_m` apart.
+  void put_steepness(double east_m, double north_m, BlockFacts& facts) const;
 
  private:
   using Corners = std::array<float, corners * corners>;
@@ -77,6 +78,8 @@ class Builder {
   void settle_cell(int cx, int cy, Corners& low, Corners& high) const;
   void settle_post(int x, int y, float low, float high);
   [[nodiscard]] float highest_of_cell(int cx, int cy) const;
+  /// Square of the largest slope of the fine cells from (x0, y0) on.
+  [[nodiscard]] float steepest2(int x0, int y0, int side, float per_east, float per_north) const;
   /// Lowest known true height of the block's own cells, their borders included.
   [[nodiscard]] float lowest() const;
 
@@ -278,17 +281,32 @@ void Builder::fill(TerrainBlock& block) const {
   block.facts.highest_m = block.highest.back();
 }
 
-double Builder::steepness(double east_m, double north_m) const {
-  float east = 0, north = 0;
-  for (int y = 0; y + 1 < side_; ++y) {
-    for (int x = 0; x + 1 < side_; ++x) {
-      const float here = at(x, y), right = at(x + 1, y), up = at(x, y + 1);
-      if (is_void(here)) continue;
-      if (!is_void(right)) east = std::max(east, std::abs(right - here));
-      if (!is_void(up)) north = std::max(north, std::abs(up - here));
+float Builder::steepest2(int x0, int y0, int side, float per_east, float per_north) const {
+  float steepest = 0;
+  for (int y = y0; y < y0 + side; ++y) {
+    for (int x = x0; x < x0 + side; ++x) {
+      const float a = at(x, y), b = at(x + 1, y), c = at(x, y + 1), d = at(x + 1, y + 1);
+      if (with_voids_ && is_void(std::min({a, b, c, d}))) continue;
+      // A bilinear surface is nowhere steeper, along either axis, than at its edges.
+      const float east = per_east * std::max(std::abs(b - a), std::abs(d - c));
+      const float north = per_north * std::max(std::abs(c - a), std::abs(d - b));
+      steepest = std::max(steepest, east * east + north * north);
     }
   }
-  return std::hypot(static_cast<double>(east) / east_m, static_cast<double>(north) / north_m);
+  return steepest;
+}
+
+void Builder::put_steepness(double east_m, double north_m, BlockFacts& facts) const {
+  constexpr int side = block_posts / residual_parts;
+  const auto per_east = static_cast<float>(1.0 / east_m);
+  const auto per_north = static_cast<float>(1.0 / north_m);
+  for (int part = 0; part < residual_parts * residual_parts; ++part) {
+    const int x = part % residual_parts * side * step_, y = part / residual_parts * side * step_;
+    const float steepest = steepest2(x, y, (side + 2 * margin) * step_, per_east, per_north);
+    const float slope = 1.0001F * std::sqrt(steepest);
+    facts.part_steepness[static_cast<std::size_t>(part)] = slope;
+    facts.steepness = std::max(facts.steepness, slope);
+  }
 }
 
 /// A ball round the ground of a block, from the ellipsoid's centre of it.
@@ -352,7 +370,7 @@ void build_polar_block(const TerrainSource& source, const BlockScratch& scratch,
   constexpr double smallest_scale = 0.99;  // of a parallel, within 12 degrees of the pole
   const double post_m =
       smallest_scale * source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
-  if (facts.residual_m > 0) facts.steepness = static_cast<float>(builder.steepness(post_m, post_m));
+  builder.put_steepness(post_m, post_m, facts);
   put_ball(source.lattice, id, facts);
 }
 
@@ -409,8 +427,7 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const double east_m = source.lattice.longitude_step_deg * rad_per_deg * equator_radius_m *
                         std::cos(std::min(reach, 89.99) * rad_per_deg);
   const double north_m = source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
-  if (facts.residual_m > 0)
-    facts.steepness = static_cast<float>(builder.steepness(east_m, north_m));
+  builder.put_steepness(east_m, north_m, facts);
   put_ball(source.lattice, id, facts);
 }
 

@@ -25,7 +25,8 @@ inline constexpr int block_nodes = 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1
 inline constexpr float void_offset_m = 100'000.0F;
 inline constexpr float void_threshold_m = -50'000.0F;
 
-inline constexpr int residual_parts = 4;  ///< a side, each with a residual of its own
+inline constexpr int residual_parts = 4;  ///< a side, each with a residual and a slope of its own
+inline constexpr int region_margin = 2;   ///< cells of its level that a block looks beyond itself
 
 struct BlockId {
   int level = 0;
@@ -41,7 +42,9 @@ struct BlockFacts {
   float residual_m = 0;
   /// The same for each of 4 x 4 parts, row-major from the south-west.
   std::array<float, residual_parts * residual_parts> part_residual_m{};
-  /// Largest slope of the surface at the finest posts; 0 where the residual is 0.
+  /// Largest slope of the surface through the finest posts, over each part and two cells of the
+  /// level round it; and over all of them.
+  std::array<float, residual_parts * residual_parts> part_steepness{};
   float steepness = 0;
   float lowest_m = 0, highest_m = 0;  ///< of posts, truth and floors; highest < lowest: none
   std::int32_t known_posts = 0;       ///< of the block's own posts
@@ -74,7 +77,7 @@ struct BlockScratch {
   std::span<float> low{}, high{};
 };
 constexpr int region_side(int level) {
-  return ((block_posts + 4) << level) + 1;
+  return ((block_posts + 2 * region_margin) << level) + 1;
 }
 constexpr int row_scratch(int level) {
   return 4 * region_side(level) + 8;

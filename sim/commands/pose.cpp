@@ -54,14 +54,15 @@ int run_pose(PoseArguments& arguments) {
 void add_pose_command(CLI::App& program, int& status) {
   auto arguments = std::make_shared<PoseArguments>();
   CLI::App* command = program.add_subcommand("pose", "render one pose");
-  command->add_option("LAT", arguments->eye.latitude_deg, "latitude, degrees")->required();
-  command->add_option("LON", arguments->eye.longitude_deg, "longitude, degrees")->required();
-  command->add_option("HEIGHT_HAE", arguments->eye.height_m, "height over the ellipsoid, m")
-      ->required();
-  command->add_option("ROLL", arguments->attitude.roll_deg, "degrees, right wing down +")
-      ->required();
-  command->add_option("PITCH", arguments->attitude.pitch_deg, "degrees, nose up +")->required();
-  command->add_option("HEADING", arguments->attitude.heading_deg, "degrees true")->required();
+  const auto number = [&](const char* name, double& value, const char* text) {
+    command->add_option(name, value, text)->required()->check(a_number());
+  };
+  number("LAT", arguments->eye.latitude_deg, "latitude, degrees");
+  number("LON", arguments->eye.longitude_deg, "longitude, degrees");
+  number("HEIGHT_HAE", arguments->eye.height_m, "height over the ellipsoid, m");
+  number("ROLL", arguments->attitude.roll_deg, "degrees, right wing down +");
+  number("PITCH", arguments->attitude.pitch_deg, "degrees, nose up +");
+  number("HEADING", arguments->attitude.heading_deg, "degrees true");
   add_scene_options(*command, *arguments);
   command->add_option("--dump", arguments->dump_folder, "folder for 000000.json and its files");
   command->callback([arguments, &status] { status = run_pose(*arguments); });

@@ -1,5 +1,6 @@
 #include "sim/commands/scene_arguments.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 namespace ridgeline::sim {
@@ -13,10 +14,13 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
                      "list of cells that are sea where no tile is");
   command.add_option("--size", arguments.size, "picture size, WxH")->capture_default_str();
   command.add_option("--hfov", arguments.field_of_view_deg, "horizontal field of view, degrees")
+      ->check(a_number())
       ->capture_default_str();
   command.add_option("--error", arguments.scene.settings.error_px, "error bound, pixels")
+      ->check(a_number())
       ->capture_default_str();
   command.add_option("--range", arguments.scene.settings.range_m, "display range, metres")
+      ->check(a_number())
       ->capture_default_str();
   command.add_option("--method", arguments.method, "ridgeline, or raycast (every pixel)")
       ->check(CLI::IsMember({"ridgeline", "raycast"}))
@@ -32,12 +36,17 @@ std::string complete(SceneArguments& arguments) {
   }
   settings.image = {width, height, arguments.field_of_view_deg};
   settings.cast_every_pixel = arguments.method == "raycast";
-  if (const auto made = camera({}, settings.image); !made) {
-    return "--size or --hfov: " + std::string(fault_text(made.fault()));
-  }
-  if (!(settings.error_px >= limits::min_error_px && settings.error_px <= limits::max_error_px)) {
-    return "--error: " + std::string(fault_text(Fault::error_bound_out_of_range)) + ", " +
-           std::to_string(limits::min_error_px) + " to " + std::to_string(limits::max_error_px);
+  const auto made = camera({}, settings.image);
+  if (!made) return "--size or --hfov: " + std::string(fault_text(made.fault()));
+  const double least_px = smallest_error_px(made.value());
+  if (!(settings.error_px >= least_px && settings.error_px <= limits::max_error_px)) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "--error %g: %s; the smallest for this picture is %.4f px, the largest %g px",
+                  settings.error_px,
+                  std::string(fault_text(Fault::error_bound_out_of_range)).c_str(),
+                  std::ceil(least_px * 1e4) * 1e-4, limits::max_error_px);
+    return text;
   }
   if (!(settings.range_m >= limits::min_range_m && settings.range_m <= limits::max_range_m)) {
     return "--range: " + std::string(fault_text(Fault::range_out_of_range));
@@ -48,9 +57,19 @@ std::string complete(SceneArguments& arguments) {
 CLI::Validator within(double low, double high) {
   const auto check = [low, high](std::string& text) -> std::string {
     double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+    if (!text.empty() && CLI::detail::lexical_cast(text, value) && value >= low && value <= high)
+      return {};
     return text + " is not a number from " + CLI::detail::to_string(low) + " to " +
            CLI::detail::to_string(high);
+  };
+  return {check, "NUMBER"};
+}
+
+CLI::Validator a_number() {
+  const auto check = [](std::string& text) -> std::string {
+    double value = 0;
+    if (!text.empty() && CLI::detail::lexical_cast(text, value)) return {};
+    return "'" + text + "' is not a number";
   };
   return {check, "NUMBER"};
 }

@@ -19,6 +19,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 /// Checks and completes the options; an error message, or empty.
 std::string complete(SceneArguments& arguments);
 
+/// Takes numbers, and nothing that is not one: no empty word either.
+CLI::Validator a_number();
 /// Takes numbers from `low` to `high`, and unlike CLI::Range nothing that is not a number.
 CLI::Validator within(double low, double high);
 

@@ -124,6 +124,7 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["planes"] = report.planes;
   frame["rows"] = report.rows;
   frame["nodes"] = report.nodes;
+  frame["geometry_px"] = report.budget.geometry_px;
   frame["level_px"] = report.budget.level_px;
   frame["blocks_arrived"] = report.window.blocks_arrived;
   frame["upload_ms"] = picture.take.upload_ms;

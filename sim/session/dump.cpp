@@ -34,6 +34,10 @@ nlohmann::ordered_json frame_json(const Picture& picture, const std::string& geo
   json["range_m"] = report.range_m;
   json["bound_px"] =
       removed ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(report.bound_px);
+  if (!removed) {
+    json["geometry_px"] = report.budget.geometry_px;
+    json["proven_px"] = report.budget.smallest_px();
+  }
   json["mode"] = mode_word(report.availability.mode);
   json["reasons"] = nlohmann::ordered_json::array();
   for (const Reason reason : report.availability.reasons) {

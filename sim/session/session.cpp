@@ -183,10 +183,15 @@ void Session::settle_if_due(const FrameInput& input) {
   settled_ = true;
 }
 
+Session::~Session() {
+  if (surface_) surface_->make_current();  // its GL objects are deleted in its own context
+}
+
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
   double start_ms = 0;
+  surface_->make_current();
   {
     const HeapSection no_heap;  // the frame path of the module; what follows is the desktop's
     const GlSection no_new_objects;

@@ -49,6 +49,11 @@ struct Picture {
 /// Everything is allocated by open(); drawing allocates only what it hands back.
 class Session {
  public:
+  Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session();
+
   /// Opens the inputs and sizes the terrain window for an eye near `first`.
   /// Outcome: the message names the file and what is wrong with it.
   Outcome open(const SceneOptions& options, const GeodeticPosition& first);

@@ -78,8 +78,10 @@ Scene scene_over(const Cap& cap, double range_m, const GeodeticPosition& first) 
 }
 
 /// Draws and judges poses; tells mode and bound of each.
+/// `rough`: frames may be removed for want of a bound.
 void expect_sound_at(const char* what, const Cap& cap, double range_m,
-                     const std::vector<Pose>& poses) {
+                     const std::vector<Pose>& poses, bool rough = false) {
+  std::vector<Pose> drawn;
   Scene s = scene_over(cap, range_m, poses.front().eye);
   for (const Pose& pose : poses) {
     const sim::Picture picture = s.draw(pose);
@@ -92,9 +94,14 @@ void expect_sound_at(const char* what, const Cap& cap, double range_m,
                 pose.eye.latitude_deg, pose.eye.longitude_deg,
                 std::string(mode_word(report.availability.mode)).c_str(), report.bound_px,
                 report.range_m / 1000, reasons.c_str());
+    if (rough && report.availability.mode == Mode::removed) {
+      EXPECT_EQ(report.availability.reasons[0], Reason::no_bound);
+      continue;
+    }
     EXPECT_EQ(report.range_m, range_m);
+    drawn.push_back(pose);
   }
-  expect_sound(s, poses, pixels);
+  if (!drawn.empty()) expect_sound(s, drawn, pixels);
 }
 
 std::vector<Pose> round_the_pole(const Cap& cap, double height_m) {
@@ -122,7 +129,7 @@ TEST_P(Poles, hills) {
 
 TEST_P(Poles, rough_ground) {
   const Cap cap(GetParam(), rough_cap_m);
-  expect_sound_at("rough", cap, 30'000, round_the_pole(cap, 4'000));
+  expect_sound_at("rough", cap, 30'000, round_the_pole(cap, 4'000), true);
 }
 
 TEST_P(Poles, straight_down_on_ground_that_is_not_flat_has_no_bound) {
