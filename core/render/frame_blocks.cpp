@@ -9,6 +9,8 @@ namespace {
 // Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
 constexpr double float_angle_rad = 3.0e-6;
 constexpr double float_height_ratio = 1.2e-7;
+constexpr double straight_rad = 1.0e-6;  ///< how far a step within a cell may bend
+constexpr double rad_per_deg = 0.017453292519943295;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
     0.85;  ///< half width of a wedge that the nodes' overlap still covers
@@ -21,23 +23,44 @@ glm::vec4 vec4_of(const glm::dvec3& v, double w) {
   return {f(v.x), f(v.y), f(v.z), f(w)};
 }
 
-/// Longest step for which a straight exit stays within slip_posts of the true track.
-double largest_step_m(const GroundMap& map, const PostLattice& window) {
-  const double range2 = map.range_m * map.range_m;
-  double bend = 0;  // posts per m², largest sum of second derivatives over the range
+/// Bounds on how much the ground map bends along any straight way over its disc: the largest sums
+/// of second derivatives. Units: degrees per (range)².
+struct MapBend {
+  double north_deg = 0, east_deg = 0;
+};
+
+MapBend bend_of(const GroundMap& map) {
   const auto& a = map.north_deg;
   const auto& b = map.east_deg;
-  const double north = 2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) +
-                       20 * std::abs(a[4]) + 2 * std::abs(a[5]) + 6 * std::abs(a[6]) +
-                       12 * std::abs(a[7]) + 20 * std::abs(a[8]) + 12 * std::abs(a[9]) +
-                       20 * std::abs(a[10]);
-  const double east = 2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) +
-                      20 * std::abs(b[4]) + 6 * std::abs(b[5]) + 12 * std::abs(b[6]) +
-                      20 * std::abs(b[7]) + 20 * std::abs(b[8]);
-  const double rows = north / window.latitude_step_deg, columns = east / window.longitude_step_deg;
+  return {2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) + 20 * std::abs(a[4]) +
+              2 * std::abs(a[5]) + 6 * std::abs(a[6]) + 12 * std::abs(a[7]) + 20 * std::abs(a[8]) +
+              12 * std::abs(a[9]) + 20 * std::abs(a[10]),
+          2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) + 20 * std::abs(b[4]) +
+              6 * std::abs(b[5]) + 12 * std::abs(b[6]) + 20 * std::abs(b[7]) + 20 * std::abs(b[8])};
+}
+
+/// Longest step for which a straight exit stays within slip_posts of the true track.
+double largest_step_m(const GroundMap& map, const PostLattice& window) {
+  const MapBend map_bend = bend_of(map);
+  const double rows = map_bend.north_deg / window.latitude_step_deg;
+  const double columns = map_bend.east_deg / window.longitude_step_deg;
   // A polar chart is turned against the eye's axes: either bend may lie along any axis.
-  bend = (window.polar() ? std::hypot(rows, columns) : std::max(rows, columns)) / range2;
+  const double bend = (window.polar() ? std::hypot(rows, columns) : std::max(rows, columns)) /
+                      (map.range_m * map.range_m);  // posts per m²
   return std::sqrt(2.0 * slip_posts / std::max(bend, 1e-12));
+}
+
+/// How long the ground track counts as straight: from distance t on for A / 2 + sqrt(A t), A the
+/// result. It then bends by at most `straight_rad` of the distance. Units: m.
+double straight_m(const GroundMap& map, const LocalFrame& frame) {
+  const MapBend bend = bend_of(map);
+  const double parallel_m =
+      map.chart == Chart::geographic
+          ? frame.prime_vertical_radius_m * std::cos(frame.eye.latitude_deg * rad_per_deg)
+          : frame.prime_vertical_radius_m;
+  const double bend_m = rad_per_deg * std::hypot(bend.north_deg * frame.meridian_radius_m,
+                                                 bend.east_deg * parallel_m);
+  return 2.0 * straight_rad * map.range_m * map.range_m / std::max(bend_m, 1.0);
 }
 
 /// The window as the shaders address it: integers relative to the post south-west of the eye.
@@ -86,7 +109,8 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   b.eye.w = f(frame.eye.height_m - static_cast<double>(high));
   b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), 0.0f, high};
   const int largest_node = block_levels + view.sizes.levels - 1;
-  b.heights = {f(highest_m), 0.0f, f(largest_node), f(largest_step_m(map, view.lattice))};
+  b.heights = {f(highest_m), f(straight_m(map, frame)), f(largest_node),
+               f(largest_step_m(map, view.lattice))};
   const double reach_m = grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
   for (int l = 0; l < view.sizes.levels; ++l) b.level_reach[l].x = f(reach_m * (1 << l));
   const double sweep_end_m =
@@ -117,7 +141,6 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
 
 double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const PostLattice& lattice,
                      double range_m) {
-  constexpr double rad_per_deg = 0.017453292519943295;
   double widest_rad = 0;
   for (const PolarGrid::Segment& segment : grid.planes) {
     widest_rad = std::max(widest_rad, 1.0 / segment.density);
