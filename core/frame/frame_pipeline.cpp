@@ -89,7 +89,8 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   if (report.range_m < settings.range_m) add_reason(report.availability, Reason::range_reduced);
 
   // Ground map and error budget.
-  const auto map = ground_map(report.local, report.range_m, terrain.lattice().chart);
+  const auto map = ground_map(report.local, report.range_m, terrain.lattice().chart,
+                              {report.window.lowest_m, report.window.highest_m});
   const HeightRounding rounding{
       std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
       clearance.distance_m};
