@@ -93,7 +93,7 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
                               {report.window.lowest_m, report.window.highest_m});
   const HeightRounding rounding{
       std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
-      clearance.distance_m};
+      clearance.relief_m, clearance.distance_m};
   const auto budget = map ? honest_budget(settings, report.camera, map.value(), levels, rounding)
                           : Result<ErrorBudget>(map.fault());
   if (!budget) return removed(report, Reason::no_bound);

@@ -233,6 +233,13 @@ double TerrainKeeper::cell_distance_m(const GeodeticPosition& eye, std::int32_t 
   return std::sqrt(x * x + y * y + over * over);
 }
 
+/// Between the lowest and the highest post of a known cell; 0 for an unknown one, which is flat.
+double TerrainKeeper::cell_relief_m(std::int32_t c, std::int32_t r) const {
+  const auto [low, high] = std::minmax(
+      {finest_post(c, r), finest_post(c + 1, r), finest_post(c, r + 1), finest_post(c + 1, r + 1)});
+  return low < void_threshold_m ? 0.0 : static_cast<double>(high) - static_cast<double>(low);
+}
+
 Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
   const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
@@ -242,10 +249,12 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const double post_x = lattice_.longitude_step_deg * metres_per_degree * narrow;
   constexpr auto limit = static_cast<double>(void_threshold_m);
   double steepest_x = 0, steepest_y = 0, by_cells = std::numeric_limits<double>::infinity();
+  double relief_m = 0;
   bool unbroken = true;
   for (std::int32_t r = row - clearance_cells; r <= row + clearance_cells; ++r) {
     for (std::int32_t c = column - clearance_cells; c <= column + clearance_cells; ++c) {
       by_cells = std::min(by_cells, cell_distance_m(eye, c, r, post_x, post_y));
+      relief_m = std::max(relief_m, cell_relief_m(c, r));
       const auto h = static_cast<double>(finest_post(c, r));
       const auto right = static_cast<double>(finest_post(c + 1, r));
       const auto up = static_cast<double>(finest_post(c, r + 1));
@@ -269,7 +278,7 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
       unbroken ? over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y) : 0.0;
   const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
   const double near = std::min(std::max(by_slope, by_cells), beyond);
-  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m)};
+  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m), relief_m};
 }
 
 Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
@@ -284,14 +293,16 @@ Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
   const double narrow = lattice_.polar() ? 1.0 : std::cos(north_deg * deg);
   const double post_m = metres_per_degree *
                         std::min(lattice_.latitude_step_deg, lattice_.longitude_step_deg * narrow);
-  double least = 0;
+  double least = 0, relief_m = 0;
   for (int level = 1; level < levels_.sizes().levels; ++level) {
     const HeldBlock* block = levels_.find({level, column >> (6 + level), row >> (6 + level)});
     if (block == nullptr) continue;
     const double over = eye.height_m - static_cast<double>(block->facts.highest_m);
     least = std::max(least, std::min(over, post_m * (1 << level)));
+    relief_m = std::max(relief_m, static_cast<double>(block->facts.highest_m) -
+                                      static_cast<double>(block->facts.lowest_m));
   }
-  if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m)};
+  if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m), relief_m};
   return {};
 }
 

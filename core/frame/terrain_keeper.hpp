@@ -23,6 +23,7 @@ struct Clearance {
   enum class Kind : std::uint8_t { above, below, undecided };
   Kind kind = Kind::undecided;  ///< undecided: too little terrain has arrived below the eye
   double distance_m = 0;  ///< lower bound on the distance to the known surface, at least 0.05 m
+  double relief_m = 0;    ///< largest of one cell near the eye
 };
 
 /// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them
@@ -66,6 +67,7 @@ class TerrainKeeper {
   [[nodiscard]] double height_below_m(double column, double row) const;
   [[nodiscard]] double cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
                                        double post_x, double post_y) const;
+  [[nodiscard]] double cell_relief_m(std::int32_t c, std::int32_t r) const;
   [[nodiscard]] Clearance near_clearance(const GeodeticPosition& eye) const;
 
   BlockPort& port_;

@@ -6,10 +6,11 @@
 namespace ridgeline {
 namespace {
 
-// Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
-constexpr double float_angle_rad = 3.0e-6;
-constexpr double float_height_ratio = 1.2e-7;
-constexpr double straight_rad = 1.0e-6;  ///< how far a step within a cell may bend
+// Derived in docs/error_bound.md, section 4, and attacked by gl.arithmetic.
+constexpr double float_angle_rad = 5.0e-6;
+constexpr double rounding_unit = 0x1p-24;
+constexpr double relief_roundings = 26.0;  ///< of one cell: corner heights, products, their sums
+constexpr double straight_rad = 1.0e-6;    ///< how far a step within a cell may bend
 constexpr double rad_per_deg = 0.017453292519943295;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
@@ -88,9 +89,10 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
   const double px_per_rad = std::max(camera.fx, camera.fy) / (edge * edge);
   ErrorBudget budget;
   budget.level_px = level_px;
-  budget.geometry_rad =
-      map.error_rad + float_angle_rad +
-      float_height_ratio * rounding.largest_m / std::max(rounding.clearance_m, 0.05);
+  budget.geometry_rad = map.error_rad + float_angle_rad +
+                        rounding_unit *
+                            (rounding.largest_m + relief_roundings * rounding.relief_m) /
+                            std::max(rounding.clearance_m, 0.05);
   budget.geometry_px = px_per_rad * budget.geometry_rad;
   return budget;
 }
