@@ -9,8 +9,9 @@ namespace {
 // Derived in docs/error_bound.md, section 4, and attacked by gl.arithmetic.
 constexpr double float_angle_rad = 5.0e-6;
 constexpr double rounding_unit = 0x1p-24;
-constexpr double relief_roundings = 26.0;  ///< of one cell: corner heights, products, their sums
-constexpr double straight_rad = 1.0e-6;    ///< how far a step within a cell may bend
+/// Of the relief of one cell: 26 u for sums and products, 2e-6 for posts at its edge.
+constexpr double relief_share = 3.6e-6;
+constexpr double straight_rad = 1.0e-6;  ///< how far a step within a cell may bend
 constexpr double rad_per_deg = 0.017453292519943295;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
@@ -90,8 +91,7 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
   ErrorBudget budget;
   budget.level_px = level_px;
   budget.geometry_rad = map.error_rad + float_angle_rad +
-                        rounding_unit *
-                            (rounding.largest_m + relief_roundings * rounding.relief_m) /
+                        (rounding_unit * rounding.largest_m + relief_share * rounding.relief_m) /
                             std::max(rounding.clearance_m, 0.05);
   budget.geometry_px = px_per_rad * budget.geometry_rad;
   return budget;

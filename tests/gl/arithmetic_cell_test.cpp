@@ -2,6 +2,7 @@
 // between ray and surface, its root, the four posts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -166,6 +167,34 @@ TEST(Arithmetic, first_zero_of_a_gap_is_exact_for_a_gap_4_u_away) {
   }
   row.expect_within("");
   distance.expect_within("of the way");
+}
+
+TEST(Arithmetic, cell_ahead_is_never_more_than_an_edge_early) {
+  // The point lies in the cell, or before it by less than 1e-6 posts and 2.4e-7 of its place.
+  ShaderProbe probe("out_a = vec4(cell_ahead(in_a.xy, in_a.zw), in_a.xy); out_b.xy = in_a.zw;");
+  Row row("cell ahead, over what is derived", 1e-9);
+  double largest = 0;
+  Random random(15);
+  std::vector<ShaderProbe::Call> calls;
+  for (int i = 0; i < 100'000; ++i) {
+    const double edge = std::round(random.between(-1, 1) * std::pow(10.0, random.between(0, 4.3)));
+    const double off = random.between(-1, 1) * std::pow(10.0, random.between(-8, 0));
+    calls.push_back({{edge + off, -edge - off, random.between(-1, 1), random.below(3) - 1}, {}});
+  }
+  for (const ShaderProbe::Call& result : probe.run(calls)) {
+    const glm::dvec4 a(result.a), b(result.b);
+    for (const auto& [cell, at, rate] : {std::array{a.x, a.z, b.x}, std::array{a.y, a.w, b.y}}) {
+      const double allowed = 1e-6 + 2.4e-7 * std::abs(at) + 2 * u * std::abs(at);
+      const double early = std::max(cell - at, at - (cell + 1));
+      row.add(std::max(0.0, early - allowed));
+      largest = std::max(largest, early / allowed);
+      // On an edge the way decides: it stands on that side of the cell it leaves.
+      const double left = rate > 0 ? cell + 1 - at : rate < 0 ? at - cell : 1.0;
+      EXPECT_GE(left, 0.5e-6) << at << ' ' << rate;
+    }
+  }
+  row.expect_within("posts");
+  std::printf("[ row ] cell ahead: %.2f of what is derived\n", largest);
 }
 
 TEST(Arithmetic, four_posts_are_the_four_posts) {
