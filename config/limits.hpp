@@ -19,6 +19,7 @@ inline constexpr int max_image_px = 4096;
 // --- terrain ---
 inline constexpr double max_terrain_height_m = 9'000.0;
 inline constexpr double min_terrain_height_m = -12'000.0;
+inline constexpr double largest_undulation_m = 120.0;            ///< of any geoid
 inline constexpr double terrain_gpu_bytes = 96.0 * 1024 * 1024;  ///< most the window may take
 inline constexpr int blocks_in_flight = 64;  ///< ordered and not yet taken; most a frame uploads
 inline constexpr int max_edits = 64;

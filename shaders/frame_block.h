@@ -48,7 +48,7 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 ray_origin;    // xyz: ray of the centre of pixel (0, 0); w: display range
   vec4 eye;           // xy: eye in its cell, 0..1; z + w: eye height, high and low part
   vec4 earth;         // x: 1/M; y: 1/N; z: unused; w: eye height, rounded
-  vec4 heights;       // x: highest of the window; y: see straight_part(); z: largest node; w: largest step
+  vec4 heights;       // x: highest of the window; y: straight way; z: largest node; w: largest step
   vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; yw: swell at the range, 03 21
   ivec4 window;       // xy: low bits of the eye's post; z: levels; w: unused
   vec4 level_size;    // xy: columns and rows of a level; zw: one over them

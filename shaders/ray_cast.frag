@@ -70,8 +70,15 @@ Course course_of(Ray r) {
   return q;
 }
 
-// How far on from distance t the track may be taken as straight inside a cell.
-float straight_part(float t) { return heights.y + sqrt(2.0 * heights.y * t); }
+// The first zero of x + y t + z t t for t > 0, where x > 0; `sky` if there is none. Of the two ways
+// to write the root, the one whose sum does not cancel.
+float first_zero(vec3 gap) {
+  float disc = gap.y * gap.y - 4.0 * gap.z * gap.x;
+  float root = sqrt(max(disc, 0.0));
+  if (gap.y > 0.0) return gap.z < 0.0 ? (gap.y + root) / (-2.0 * gap.z) : sky;
+  float down = root - gap.y;
+  return disc < 0.0 || down <= 0.0 ? sky : 2.0 * gap.x / down;
+}
 
 // Distance of the first known surface or, negative, of the first unknown floor; `sky` if none.
 // `size`: nodes of 2^size cells are looked at first.
@@ -100,7 +107,9 @@ float first_hit(Ray r, float start, int size) {
     if (parent.x > -1000000 && up != parent && size < top_size) size += 1;
     parent = ivec2(-1000000);
     size = clamp(size, level, level + node_levels);
-    float leave = min(exit_distance(cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * t);
+    float exit = min(exit_distance(cell, size, at, rate), heights.w);
+    float nudge = 3.0e-5 + 4.0e-7 * t;  // past the edge, so that the next step is over it
+    float leave = exit + nudge;
     if (size > level) {
       ivec2 low = level_low(cell, size);
       int holder = level_of(low, low + (1 << size), level);
@@ -120,23 +129,20 @@ float first_hit(Ray r, float start, int size) {
       continue;
     }
     Cell c = cell_at(cell, level);
-    leave = min(leave, straight_part(t));
     float unit = 1.0 / float(1 << level);
     vec2 inside = (at - vec2(level_low(cell, level))) * unit;
     vec3 gap = gap_along(c, inside, rate * unit, height, climb, bend);
-    float hit = 0.0;
-    if (gap.x > 0.0) {
-      float disc = gap.y * gap.y - 4.0 * gap.z * gap.x;
-      float down = -gap.y + sqrt(max(disc, 0.0));
-      hit = (disc < 0.0 || down <= 0.0) ? 2.0 * leave : 2.0 * gap.x / down;
-    }
-    if (hit <= leave) {
+    // The track counts as straight only as far as it bends by less than 1e-6 of the distance.
+    float straight = 0.5 * heights.y + sqrt(heights.y * t);
+    float stretch = min(exit, straight);
+    float hit = gap.x > 0.0 ? first_zero(gap) : 0.0;
+    if (hit <= stretch) {  // a hit within the nudge is met where the next cell begins
       t += hit;
       // Never -0, which is no sign at all: the eye may stand inside an unknown floor.
       return t > range ? sky : (c.unknown ? -max(t, 1.0e-3) : t);
     }
     parent = (window.xy + cell) >> (size + 1);
-    t += leave;
+    t += straight < exit ? straight : leave;
   }
   return unresolved;
 }

@@ -26,7 +26,8 @@ struct Promise {
 Result<Promise> promise_over(const FrameSettings& settings, const FrameReport& report,
                              const TerrainKeeper& terrain, const Clearance& clearance,
                              const LevelError& levels) {
-  const auto map = ground_map(report.local, levels.clear_range_m, terrain.lattice().chart);
+  const auto map = ground_map(report.local, levels.clear_range_m, terrain.lattice().chart,
+                              {report.window.lowest_m, report.window.highest_m});
   if (!map) return map.fault();
   const HeightRounding rounding{
       std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),

@@ -249,6 +249,13 @@ double TerrainKeeper::cell_distance_m(const GeodeticPosition& eye, std::int32_t 
   return std::sqrt(away2 + over * over);
 }
 
+/// Between the lowest and the highest post of a known cell; 0 for an unknown one, which is flat.
+double TerrainKeeper::cell_relief_m(std::int32_t c, std::int32_t r) const {
+  const auto [low, high] = std::minmax(
+      {finest_post(c, r), finest_post(c + 1, r), finest_post(c, r + 1), finest_post(c + 1, r + 1)});
+  return low < void_threshold_m ? 0.0 : static_cast<double>(high) - static_cast<double>(low);
+}
+
 Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const auto column = static_cast<std::int32_t>(std::floor(eye_column_));
   const auto row = static_cast<std::int32_t>(std::floor(eye_row_));
@@ -256,22 +263,12 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const double narrow =
       lattice_.polar() ? 1.0 : std::max(std::cos(eye.latitude_deg * deg) - 1e-4, 1e-3);
   const double post_x = lattice_.longitude_step_deg * metres_per_degree * narrow;
-  constexpr auto limit = static_cast<double>(void_threshold_m);
-  double steepest_x = 0, steepest_y = 0, by_cells = std::numeric_limits<double>::infinity();
+  double near_m = (clearance_cells - 1) * std::min(post_x, post_y);  // to what is not looked at
   double relief_m = 0;
-  bool unbroken = true;
   for (std::int32_t r = row - clearance_cells; r <= row + clearance_cells; ++r) {
     for (std::int32_t c = column - clearance_cells; c <= column + clearance_cells; ++c) {
-      by_cells = std::min(by_cells, cell_distance_m(eye, c, r, post_x, post_y));
-      const auto h = static_cast<double>(finest_post(c, r));
-      const auto right = static_cast<double>(finest_post(c + 1, r));
-      const auto up = static_cast<double>(finest_post(c, r + 1));
-      unbroken = unbroken && std::min({h, right, up}) > limit;
-      steepest_x = std::max(steepest_x, std::abs(right - h) / post_x);
-      steepest_y = std::max(steepest_y, std::abs(up - h) / post_y);
-      const auto across = static_cast<double>(finest_post(c + 1, r + 1));
-      const double lowest = std::min({h, right, up, across});
-      if (lowest > limit) relief_m = std::max(relief_m, std::max({h, right, up, across}) - lowest);
+      near_m = std::min(near_m, cell_distance_m(eye, c, r, post_x, post_y));
+      relief_m = std::max(relief_m, cell_relief_m(c, r));
     }
   }
   double residual = 0;  // what the truth may be nearer by
@@ -285,13 +282,7 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   if (over + residual <= least_height_m) {
     return {Clearance::Kind::below, least_clearance_m, relief_m};
   }
-  // Without a void the surface is Lipschitz within the cells looked at; a void may hide a jump.
-  // What lies beyond them is at least that far off.
-  const double by_slope =
-      unbroken ? over / std::sqrt(1.0 + steepest_x * steepest_x + steepest_y * steepest_y) : 0.0;
-  const double beyond = (clearance_cells - 1) * std::min(post_x, post_y);
-  const double near = std::min(std::max(by_slope, by_cells), beyond);
-  return {Clearance::Kind::above, std::max(near - residual, least_clearance_m), relief_m};
+  return {Clearance::Kind::above, std::max(near_m - residual, least_clearance_m), relief_m};
 }
 
 Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
@@ -312,8 +303,8 @@ Clearance TerrainKeeper::clearance(const GeodeticPosition& eye) const {
     if (block == nullptr) continue;
     const double over = eye.height_m - static_cast<double>(block->facts.highest_m);
     least = std::max(least, std::min(over, post_m * (1 << level)));
-    relief_m =
-        std::max(relief_m, static_cast<double>(block->facts.highest_m - block->facts.lowest_m));
+    relief_m = std::max(relief_m, static_cast<double>(block->facts.highest_m) -
+                                      static_cast<double>(block->facts.lowest_m));
   }
   if (least > 0) return {Clearance::Kind::above, std::max(least, least_clearance_m), relief_m};
   return {};

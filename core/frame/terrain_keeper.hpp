@@ -67,6 +67,7 @@ class TerrainKeeper {
   [[nodiscard]] double height_below_m(double column, double row) const;
   [[nodiscard]] double cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
                                        double post_x, double post_y) const;
+  [[nodiscard]] double cell_relief_m(std::int32_t c, std::int32_t r) const;
   [[nodiscard]] Clearance near_clearance(const GeodeticPosition& eye) const;
 
   BlockPort& port_;

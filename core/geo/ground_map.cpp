@@ -11,6 +11,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double largest_map_error_rad = 1e-4;
+// Check points of error_rad: in a half disc (the map is even or odd in E) at the zeros of a
+// Chebyshev polynomial along every azimuth, signed. docs/error_bound.md, section 2, derives the
+// margin.
+constexpr int check_azimuths = 30, check_radii = 14;
+constexpr double check_disc = 1.001;  ///< in ranges; below sea level the ground is shorter
+constexpr double map_margin = 1.5;
 constexpr double least_ranges_to_pole = 4.0;       ///< of an eye in the geographic chart
 constexpr double least_polar_latitude_deg = 79.0;  ///< of an eye in a polar chart
 
@@ -102,17 +108,17 @@ class Fit {
   std::array<double, Count> right_{};
 };
 
-/// Largest misplacement over distance at one (alpha, g), over the heights of the domain.
-double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double alpha, double g_m) {
+/// Largest misplacement over ground distance at one (alpha, g), at both ends of the heights: the
+/// misplacement is linear in the height, so between them it is no larger.
+double misplacement_rad(const LocalFrame& frame, const GroundMap& map, const HeightSpan& heights,
+                        double alpha, double g_m) {
   const double radius = osculating_radius_m(frame, alpha);
   const double theta = g_m / radius;
-  const ChartPoint offset =
-      map.offset(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m);
-  const GroundPlace place = place_at(map.chart, frame.eye, offset);
-  const double swell_m =
-      map.swell_at_m(g_m * std::sin(alpha) / map.range_m, g_m * std::cos(alpha) / map.range_m);
-  double worst = 0;
-  for (const double height_m : {-500.0, 3'000.0, limits::max_terrain_height_m}) {
+  const double e = g_m * std::sin(alpha) / map.range_m, n = g_m * std::cos(alpha) / map.range_m;
+  const GroundPlace place = place_at(map.chart, frame.eye, map.offset(e, n));
+  const double swell_m = map.swell_at_m(e, n);
+  double worst_m = 0;
+  for (const double height_m : {heights.lowest_m, heights.highest_m}) {
     const Vec3<Ecef> exact =
         ecef_from_geodetic({place.latitude_deg, place.longitude_deg, height_m});
     const Vec3<Enu> exact_enu = frame.ecef_from_enu.inverse() * (exact - frame.eye_ecef);
@@ -120,9 +126,9 @@ double misplacement_rad(const LocalFrame& frame, const GroundMap& map, double al
     const double x = rho * std::sin(theta);
     const double y = rho * std::cos(theta) - radius - frame.eye.height_m;
     const glm::dvec3 model(x * std::sin(alpha), x * std::cos(alpha), y);
-    worst = std::max(worst, glm::length(exact_enu.xyz - model) / glm::length(model));
+    worst_m = std::max(worst_m, glm::length(exact_enu.xyz - model));
   }
-  return worst;
+  return worst_m / g_m;
 }
 
 }  // namespace
@@ -138,7 +144,8 @@ ChartPoint GroundMap::offset(double e, double n) const {
   return {east, north};
 }
 
-Result<GroundMap> ground_map(const LocalFrame& frame, double range_m, Chart chart) {
+Result<GroundMap> ground_map(const LocalFrame& frame, double range_m, Chart chart,
+                             const HeightSpan& heights) {
   if (!(range_m >= limits::min_range_m && range_m <= limits::max_range_m)) {
     return Fault::range_out_of_range;
   }
@@ -171,12 +178,13 @@ Result<GroundMap> ground_map(const LocalFrame& frame, double range_m, Chart char
   map.east_deg = east_fit.solve();
   map.swell_m = swell_fit.solve();
   double worst = 0;
-  for (int i = 0; i <= 25; ++i) {
-    for (int k = 1; k <= 10; ++k) {
-      worst = std::max(worst, misplacement_rad(frame, map, pi * i / 25, range_m * k / 10));
+  for (int i = 0; i <= check_azimuths; ++i) {
+    for (int k = 1; k <= check_radii; ++k) {
+      const double g_m = check_disc * range_m * std::cos(pi * (2 * k - 1) / (4 * check_radii));
+      worst = std::max(worst, misplacement_rad(frame, map, heights, pi * i / check_azimuths, g_m));
     }
   }
-  map.error_rad = 1.5 * worst;
+  map.error_rad = map_margin * worst;
   if (!(map.error_rad <= largest_map_error_rad)) return Fault::no_error_bound;
   return map;
 }

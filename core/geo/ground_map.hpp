@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "config/limits.hpp"
 #include "core/base/result.hpp"
 #include "core/geo/chart.hpp"
 #include "core/geo/local_frame.hpp"
@@ -34,8 +35,8 @@ struct GroundMap {
   /// deg; order (i,j): 10 11 12 13 14 30 31 32 50
   std::array<double, 9> east_deg{};
   std::array<double, 2> swell_m{};  ///< w_0, w_1; order (i,j): 03 21
-  /// Largest displacement of a ground point at any height of the domain, over its distance from
-  /// the eye, rad: the angle by which this map can misplace anything in the picture.
+  /// Largest displacement of a ground point at any height of the span, over its distance from the
+  /// eye, rad: the angle by which this map can misplace anything in the picture.
   double error_rad = 0;
 
   /// Height of the ellipsoid over its osculating circle at (E, N), both over range_m; m.
@@ -46,15 +47,22 @@ struct GroundMap {
   [[nodiscard]] ChartPoint offset(double e, double n) const;
 };
 
+/// Heights over the ellipsoid between which a map is to be right.
+struct HeightSpan {
+  double lowest_m = limits::min_terrain_height_m - limits::largest_undulation_m;
+  double highest_m = limits::max_terrain_height_m + limits::largest_undulation_m;
+};
+
 /// Fits the map for one eye and display range.
 /// Domain: in the geographic chart the eye stays about five display ranges away from the poles, in
 /// a
 ///         polar chart within 11 degrees of one; elsewhere, and where `error_rad` would pass 1e-4
 ///         rad, the answer is Fault::no_error_bound.
-/// Error:  `error_rad` is 1.5 times the largest misplacement over a fixed set of 260 check points
-///         at three heights each; the functions are analytic and smooth at that spacing.
+/// Error:  `error_rad` is 1.5 times the largest misplacement over 434 check points at both ends of
+///         `heights`; docs/error_bound.md, section 2, shows that nothing between them passes it
+///         (test MapError.*).
 /// Cost:   about 1000 GeographicLib conversions; no allocation.
 Result<GroundMap> ground_map(const LocalFrame& frame, double range_m,
-                             Chart chart = Chart::geographic);
+                             Chart chart = Chart::geographic, const HeightSpan& heights = {});
 
 }  // namespace ridgeline

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace ridgeline {
 namespace {
 
-// Derived in docs/error_bound.md, section 4; units: rad and rad per (height / distance).
-constexpr double float_angle_rad = 3.0e-6;
-constexpr double float_height_ratio = 1.2e-7;
-constexpr double float_relief_ratio = 22 * 6.0e-8;
-/// Cells farther than those whose relief is known are at least seven posts away.
-constexpr double float_slope_rad = float_relief_ratio * std::numbers::sqrt2 / 7.0;
-constexpr double straight_angle_rad = 1.0e-6;
-constexpr double smallest_radius_m = 6'335'000.0;
+// Derived in docs/error_bound.md, section 4, and attacked by gl.arithmetic.
+constexpr double float_angle_rad = 5.5e-6;
+constexpr double rounding_unit = 0x1p-24;
+/// Of the relief of one cell: 26 u for sums and products, 2e-6 for posts at its edge.
+constexpr double relief_share = 3.6e-6;
+constexpr double straight_rad = 1.0e-6;  ///< how far a step within a cell may bend
+constexpr double rad_per_deg = 0.017453292519943295;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
 constexpr double wedge_posts =
     0.85;  ///< half width of a wedge that the nodes' overlap still covers
@@ -27,40 +25,48 @@ glm::vec4 vec4_of(const glm::dvec3& v, double w) {
   return {f(v.x), f(v.y), f(v.z), f(w)};
 }
 
-/// How much the track of a ray bends at most, in posts per m².
-double largest_bend(const GroundMap& map, const PostLattice& window) {
-  const double range2 = map.range_m * map.range_m;
-  // The largest sum of second derivatives over the range.
+/// Bounds on how much the ground map bends along any straight way over its disc: the largest sums
+/// of second derivatives. Units: degrees per (range)².
+struct MapBend {
+  double north_deg = 0, east_deg = 0;
+};
+
+MapBend bend_of(const GroundMap& map) {
   const auto& a = map.north_deg;
   const auto& b = map.east_deg;
-  const double north = 2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) +
-                       20 * std::abs(a[4]) + 2 * std::abs(a[5]) + 6 * std::abs(a[6]) +
-                       12 * std::abs(a[7]) + 20 * std::abs(a[8]) + 12 * std::abs(a[9]) +
-                       20 * std::abs(a[10]);
-  const double east = 2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) +
-                      20 * std::abs(b[4]) + 6 * std::abs(b[5]) + 12 * std::abs(b[6]) +
-                      20 * std::abs(b[7]) + 20 * std::abs(b[8]);
-  const double rows = north / window.latitude_step_deg, columns = east / window.longitude_step_deg;
-  // A polar chart is turned against the eye's axes: either bend may lie along any axis.
-  const double bend =
-      (window.polar() ? std::hypot(rows, columns) : std::max(rows, columns)) / range2;
-  return std::max(bend, 1e-12);
+  return {2 * std::abs(a[1]) + 6 * std::abs(a[2]) + 12 * std::abs(a[3]) + 20 * std::abs(a[4]) +
+              2 * std::abs(a[5]) + 6 * std::abs(a[6]) + 12 * std::abs(a[7]) + 20 * std::abs(a[8]) +
+              12 * std::abs(a[9]) + 20 * std::abs(a[10]),
+          2 * std::abs(b[1]) + 6 * std::abs(b[2]) + 12 * std::abs(b[3]) + 20 * std::abs(b[4]) +
+              6 * std::abs(b[5]) + 12 * std::abs(b[6]) + 20 * std::abs(b[7]) + 20 * std::abs(b[8])};
 }
 
 /// Longest step for which a straight exit stays within slip_posts of the true track.
-double largest_step_m(double bend) {
-  return std::sqrt(2.0 * slip_posts / bend);
+double largest_step_m(const GroundMap& map, const PostLattice& window) {
+  const MapBend map_bend = bend_of(map);
+  const double rows = map_bend.north_deg / window.latitude_step_deg;
+  const double columns = map_bend.east_deg / window.longitude_step_deg;
+  // A polar chart is turned against the eye's axes: either bend may lie along any axis.
+  const double bend = (window.polar() ? std::hypot(rows, columns) : std::max(rows, columns)) /
+                      (map.range_m * map.range_m);  // posts per m²
+  return std::sqrt(2.0 * slip_posts / std::max(bend, 1e-12));
 }
 
-/// Inside a cell a ray's track is taken as straight. It bends sideways with the map, and along
-/// itself where the ray looks down (ground distance = t cos d - t² sin d cos d / R). From distance
-/// t on it is straight to straight_angle_rad of the distance for a / 2 + sqrt(a t); this is a / 2.
-double straight_half_m(double bend, const LocalFrame& frame, const PostLattice& window) {
-  constexpr double rad_per_deg = 0.017453292519943295;
-  const double post_deg = std::max(window.latitude_step_deg, window.longitude_step_deg);
-  const double post_m =
-      std::numbers::sqrt2 * post_deg * rad_per_deg * frame.prime_vertical_radius_m;
-  return straight_angle_rad / (bend * post_m + 1.0 / smallest_radius_m);
+/// How long the ground track counts as straight: from distance t on for A / 2 + sqrt(A t), A the
+/// result. It then bends by at most `straight_rad` of the distance: sideways with the map, and
+/// along itself where the ray looks down (over ground it has gone t cos d - t² sin d cos d / R).
+/// Units: m.
+double straight_m(const GroundMap& map, const LocalFrame& frame) {
+  const MapBend bend = bend_of(map);
+  const double parallel_m =
+      map.chart == Chart::geographic
+          ? frame.prime_vertical_radius_m * std::cos(frame.eye.latitude_deg * rad_per_deg)
+          : frame.prime_vertical_radius_m;
+  const double bend_m = rad_per_deg * std::hypot(bend.north_deg * frame.meridian_radius_m,
+                                                 bend.east_deg * parallel_m);
+  return 2.0 * straight_rad /
+         (bend_m / (map.range_m * map.range_m) +
+          std::max(map.inverse_meridian_radius, map.inverse_prime_vertical_radius));
 }
 
 /// The window as the shaders address it: integers relative to the post south-west of the eye.
@@ -90,10 +96,9 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
   budget.level_px = level_px;
   // Ground moved by d in any direction is, over its old place, higher or lower by at most this.
   const double lift = std::hypot(1.0, steepest);
-  budget.geometry_rad =
-      lift * (map.error_rad + float_angle_rad + straight_angle_rad) + steepest * float_slope_rad +
-      (float_height_ratio * rounding.largest_m + float_relief_ratio * rounding.relief_m) /
-          std::max(rounding.clearance_m, 1e-3);
+  budget.geometry_rad = lift * (map.error_rad + float_angle_rad) +
+                        (rounding_unit * rounding.largest_m + relief_share * rounding.relief_m) /
+                            std::max(rounding.clearance_m, 1e-3);
   budget.geometry_px = px_per_rad * budget.geometry_rad;
   return budget;
 }
@@ -101,7 +106,7 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
 double smallest_error_px(const Camera& camera) {
   const double edge = std::cos(camera.half_diagonal_rad(0.0));
   const double px_per_rad = std::max(camera.fx, camera.fy) / (edge * edge);
-  return px_per_rad * (float_angle_rad + straight_angle_rad);
+  return px_per_rad * float_angle_rad;
 }
 
 FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const GroundMap& map,
@@ -118,9 +123,8 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   b.eye.w = f(frame.eye.height_m - static_cast<double>(high));
   b.earth = {f(map.inverse_meridian_radius), f(map.inverse_prime_vertical_radius), 0.0f, high};
   const int largest_node = block_levels + view.sizes.levels - 1;
-  const double bend = largest_bend(map, view.lattice);
-  b.heights = {f(highest_m), f(straight_half_m(bend, frame, view.lattice)), f(largest_node),
-               f(largest_step_m(bend))};
+  b.heights = {f(highest_m), f(straight_m(map, frame)), f(largest_node),
+               f(largest_step_m(map, view.lattice))};
   const double reach_m = grid.used ? wedge_limit_m(frame, grid, view.lattice, map.range_m) : 0.0;
   for (int l = 0; l < view.sizes.levels; ++l) b.level_reach[l].x = f(reach_m * (1 << l));
   const double sweep_end_m =
@@ -151,7 +155,6 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
 
 double wedge_limit_m(const LocalFrame& frame, const PolarGrid& grid, const PostLattice& lattice,
                      double range_m) {
-  constexpr double rad_per_deg = 0.017453292519943295;
   double widest_rad = 0;
   for (const PolarGrid::Segment& segment : grid.planes) {
     widest_rad = std::max(widest_rad, 1.0 / segment.density);

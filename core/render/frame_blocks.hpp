@@ -30,7 +30,7 @@ struct ErrorBudget {
 /// What rounding of heights in float32 depends on.
 struct HeightRounding {
   double largest_m = 0;    ///< largest magnitude of a height in the window
-  double relief_m = 0;     ///< largest difference of heights inside one cell near the eye
+  double relief_m = 0;     ///< largest difference of the posts of one cell near the eye
   double clearance_m = 0;  ///< lower bound on the distance to the terrain
 };
 
