@@ -42,6 +42,12 @@ class Fields {
     return value.get<double>();
   }
 
+  /// Nothing where the field is absent or null.
+  [[nodiscard]] std::optional<double> real_if_any(const char* name) const {
+    if (!object_.contains(name) || object_.at(name).is_null()) return std::nullopt;
+    return real(name);
+  }
+
   [[nodiscard]] int count(const char* name) const {
     const double value = real(name);
     if (!(value >= 1) || value > 65536 || value != std::floor(value)) wrong(name, "is not a size");
@@ -221,8 +227,10 @@ Frame read_frame_header(const std::filesystem::path& json) {
   frame.geoid = fields.word("geoid");
   frame.width = fields.count("width");
   frame.height = fields.count("height");
-  const Json& bound = fields.field("bound_px");
-  if (!bound.is_null()) frame.bound_px = fields.real("bound_px");
+  (void)fields.field("bound_px");
+  frame.bound_px = fields.real_if_any("bound_px");
+  frame.proven_px = fields.real_if_any("proven_px");
+  frame.geometry_px = fields.real_if_any("geometry_px");
   frame.has_range_file = std::filesystem::exists(sibling(json, "_range.npy"));
   // A frame is removed because its input is not valid, so the pose may be missing there.
   if (frame.mode == Mode::removed) return frame;
