@@ -58,6 +58,8 @@ void add_measure_options(CLI::App& command, VerifyArguments& arguments) {
           "how rays are followed; the result is the same")
       ->check(CLI::IsMember({"accelerated", "every-cell"}))
       ->default_str("accelerated");
+  command.add_flag("--strict-edge", options.strict_edge,
+                   "completeness by pixels of the image alone");
   command.add_flag_function(
       "--between,!--no-between", [&options](std::int64_t given) { options.between = given > 0; },
       "look for information at a second point of every pixel");

@@ -53,12 +53,14 @@ const char* name_of(Doubt doubt) {
   return names[static_cast<std::size_t>(doubt)];
 }
 
-Judge::Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& frame)
+Judge::Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& frame,
+             bool strict_edge)
     : tracer_(tracer),
       longer_tracer_(longer_tracer),
       frame_(frame),
       camera_(frame),
-      bound_px_(*frame.bound_px) {}
+      bound_px_(*frame.bound_px),
+      strict_edge_(strict_edge) {}
 
 void Judge::search_rings(PixelSearch& search, double from, double to, int rings, int rays) const {
   for (int ring = 0; ring < rings; ++ring) {
@@ -288,28 +290,53 @@ void Judge::measure_without_slack(double z, const ImagePoint& centre, Judgement&
   judgement.error_px = std::min(judgement.error_px, search.radius_px());
 }
 
-Judge::Bracket Judge::bracket(const ImagePoint& point, const FirstHit& hit) const {
+/// Calls `take(u, v)` for the pixels within the bound + 1/sqrt(2), in the image or not, until it
+/// returns true. The pixel of the point itself comes first: it is nearly always enough.
+template <class Take>
+void Judge::for_each_pixel_around(const ImagePoint& point, const Take& take) const {
   const double radius = bound_px_ + std::sqrt(0.5) + 1e-9;
+  const auto is_near = [&](int u, int v) {
+    return size_of(ImagePoint{u + 0.5, v + 0.5} + (-1.0) * point) <= radius;
+  };
+  const int own_u = static_cast<int>(std::floor(point.x));
+  const int own_v = static_cast<int>(std::floor(point.y));
+  if (is_near(own_u, own_v) && take(own_u, own_v)) return;
+  for (int v = static_cast<int>(std::floor(point.y - radius)); v <= point.y + radius; ++v) {
+    for (int u = static_cast<int>(std::floor(point.x - radius)); u <= point.x + radius; ++u) {
+      if (is_near(u, v) && take(u, v)) return;
+    }
+  }
+}
+
+Judge::Bracket Judge::bracket(const ImagePoint& point, const FirstHit& hit) const {
   bool below = false;
   bool above = false;
   bool meets_unknown = false;
-  const auto take = [&](int u, int v) {
-    if (u < 0 || v < 0 || u >= frame_.width || v >= frame_.height) return;
-    if (size_of(ImagePoint{u + 0.5, v + 0.5} + (-1.0) * point) > radius) return;
-    const double z = frame_.z(u, v);
-    meets_unknown = meets_unknown || std::isnan(z);
+  bool meets_edge = false;
+  const auto join = [&](double z) {
     below = below || z * (1 - eta) <= hit.distance_m;
     above = above || z * (1 + eta) >= hit.distance_m;
+    return below && above;
   };
-  take(static_cast<int>(std::floor(point.x)), static_cast<int>(std::floor(point.y)));
-  for (int v = static_cast<int>(std::floor(point.y - radius)); v <= point.y + radius; ++v) {
-    for (int u = static_cast<int>(std::floor(point.x - radius)); u <= point.x + radius; ++u) {
-      if (below && above) return Bracket::by_known;
-      take(u, v);
+  const auto is_inside = [&](int u, int v) {
+    return u >= 0 && v >= 0 && u < frame_.width && v < frame_.height;
+  };
+  for_each_pixel_around(point, [&](int u, int v) {
+    if (!is_inside(u, v)) {
+      meets_edge = true;
+      return false;
     }
-  }
+    meets_unknown = meets_unknown || std::isnan(frame_.z(u, v));
+    return join(frame_.z(u, v));
+  });
   if (below && above) return Bracket::by_known;
-  return meets_unknown && hit.may_be_unknown ? Bracket::by_unknown : Bracket::none;
+  if (meets_unknown && hit.may_be_unknown) return Bracket::by_unknown;
+  if (!meets_edge || strict_edge_) return Bracket::none;
+  for_each_pixel_around(point, [&](int u, int v) {
+    if (is_inside(u, v)) return false;
+    return join(tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5})).distance_m);
+  });
+  return below && above ? Bracket::by_edge : Bracket::none;
 }
 
 Doubt Judge::completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit) const {
@@ -335,6 +362,7 @@ Doubt Judge::completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit
 void Judge::judge_completeness(const ImagePoint& centre, double z, Judgement& judgement) const {
   const Bracket found = bracket(centre, judgement.centre);
   judgement.leans_on_unknown = found == Bracket::by_unknown && !std::isnan(z);
+  judgement.leans_on_edge = found == Bracket::by_edge;
   if (found != Bracket::none) return;
   const Doubt doubt = completeness_by_a_hair(centre, judgement.centre);
   judgement.completeness = doubt == Doubt::none ? Verdict::violated : Verdict::undecided;

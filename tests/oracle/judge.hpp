@@ -46,6 +46,8 @@ struct Judgement {
   /// Complete only because an unknown pixel around may hide what is behind unknown ground, though
   /// the pixel itself shows something known.
   bool leans_on_unknown = false;
+  /// Complete only because pixels beyond the edge of the image count as drawn exactly.
+  bool leans_on_edge = false;
   /// The actual error: the radius of the smallest disc found that makes the pixel sound; at most
   /// four bounds. Known to a hundredth of the bound or 0.002 px, whichever is smaller.
   double error_px = 0;
@@ -89,19 +91,24 @@ struct Question {
 /// Completeness is asked at the centre, with the slack eta along the ray, and for information at
 /// one more point of the pixel: even a frame of exact rays through the centres misses extremes that
 /// lie between four of them, so the promise, which speaks of pixels, is read as one about their
-/// centres. Only pixels of the image count. An unknown pixel may hide anything behind unknown
-/// ground: it serves as both ends of the interval where the ray at the point *may* be unknown.
-/// Owner:  views all three arguments.
+/// centres. An unknown pixel may hide anything behind unknown ground: it serves as both ends of the
+/// interval where the ray at the point *may* be unknown. Pixels beyond the edge of the image count
+/// as drawn exactly, unless the edge is strict: what truly stands in the last row may be nearer
+/// than anything a picture with any error at all shows there, so without them no bound but 0 would
+/// do. How often either of these two rules decides is counted. Owner:  views all three arguments.
 class Judge {
  public:
-  Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& frame);
+  /// With `strict_edge` only pixels of the image count, to the letter of the contract.
+  Judge(const Tracer& tracer, const Tracer& longer_tracer, const Frame& frame,
+        bool strict_edge = false);
 
   [[nodiscard]] Judgement judge(const Question& question) const;
 
  private:
   struct Arc;
   enum class ArcResult { proved, excluded, grazing, ended, not_applicable };
-  enum class Bracket { none, by_unknown, by_known };
+  /// What the truth at a point lies between.
+  enum class Bracket { none, by_edge, by_unknown, by_known };
 
   void judge_soundness(double z, const ImagePoint& centre, Judgement& judgement) const;
   [[nodiscard]] Doubt search_whole_disc(PixelSearch& search) const;
@@ -115,6 +122,8 @@ class Judge {
 
   void judge_completeness(const ImagePoint& centre, double z, Judgement& judgement) const;
   [[nodiscard]] Doubt completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit) const;
+  template <class Take>
+  void for_each_pixel_around(const ImagePoint& point, const Take& take) const;
   [[nodiscard]] Bracket bracket(const ImagePoint& point, const FirstHit& hit) const;
 
   const Tracer& tracer_;
@@ -122,6 +131,7 @@ class Judge {
   const Frame& frame_;
   Camera camera_;
   double bound_px_;
+  bool strict_edge_;
 };
 
 }  // namespace ridgeline::oracle

@@ -88,6 +88,7 @@ struct Outcome {
   bool without_slack_is_larger;
   bool missed_between_centres;
   bool leans_on_unknown;
+  bool leans_on_edge;
   Verdict soundness;
   Verdict completeness;
   Doubt doubt;
@@ -100,6 +101,7 @@ struct Outcome {
         without_slack_is_larger(judgement.error_without_slack_is_larger),
         missed_between_centres(judgement.missed_between_centres),
         leans_on_unknown(judgement.leans_on_unknown),
+        leans_on_edge(judgement.leans_on_edge),
         soundness(judgement.soundness),
         completeness(judgement.completeness),
         doubt(judgement.doubt) {}
@@ -113,7 +115,7 @@ class FrameRun {
         options_(options),
         tracer_(terrain, frame.eye, frame.range_m, options.walk),
         longer_(terrain, frame.eye, frame.range_m * (1 + 2 * eta), options.walk),
-        judge_(tracer_, longer_, frame) {}
+        judge_(tracer_, longer_, frame, options.strict_edge) {}
 
   void add_to(VerifySummary& summary, FrameSummary& of_frame) const {
     const int count =
@@ -162,6 +164,7 @@ class FrameRun {
     if (incomplete) ++summary.completeness_violations;
     if (outcome.missed_between_centres) ++summary.missed_between_centres;
     if (outcome.leans_on_unknown) ++summary.leaning_on_unknown;
+    if (outcome.leans_on_edge) ++summary.leaning_on_edge;
     if (unsound || incomplete) {
       if (summary.details.size() < details_kept) summary.details.push_back(told(pixel));
     } else if (outcome.doubt != Doubt::none) {

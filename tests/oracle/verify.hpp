@@ -30,6 +30,8 @@ struct VerifyOptions {
   std::uint64_t seed = 1;
   int threads = 2;  ///< > 0; the result does not depend on it
   Walk walk = Walk::accelerated;
+  /// Pixels beyond the edge of the image do not count as drawn exactly (see Judge).
+  bool strict_edge = false;
   /// Ask for completeness at a second point of every pixel, for information; without a word here,
   /// unless all pixels are judged: then most neighbours answer for it, and it doubles the time.
   std::optional<bool> between;
@@ -77,6 +79,9 @@ struct VerifySummary {
   /// Pixels that show something known and are complete only because an unknown pixel around may
   /// hide what is behind unknown ground. No violation: how much that rule lets pass.
   std::size_t leaning_on_unknown = 0;
+  /// Pixels that are complete only because pixels beyond the edge of the image count as drawn
+  /// exactly. No violation, unless the edge is strict.
+  std::size_t leaning_on_edge = 0;
   std::size_t undecided = 0;  ///< pixels without a violation, but with an undecided claim
   std::array<DoubtCount, doubt_count> doubts;  ///< the same by reason
 

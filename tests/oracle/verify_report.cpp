@@ -99,6 +99,7 @@ Json json_of(const VerifyOptions& options) {
   json["pixels"] = options.all_pixels ? Json("all") : Json(options.pixels_per_frame);
   json["seed"] = options.seed;
   json["walk"] = options.walk == Walk::every_cell ? "every-cell" : "accelerated";
+  json["strict_edge"] = options.strict_edge;
   json["between"] = options.asks_between();
   json["without_slack_one_in"] = options.without_slack_one_in;
   return json;
@@ -135,6 +136,10 @@ void print_summary(const VerifySummary& summary, std::ostream& out) {
     out << "known pixels complete only by an unknown pixel beside them "
         << summary.leaning_on_unknown << " (for information)\n";
   }
+  if (summary.leaning_on_edge > 0) {
+    out << "pixels complete only by what is beyond the edge of the image "
+        << summary.leaning_on_edge << " (for information)\n";
+  }
   out << "largest error " << std::setprecision(4) << summary.error_max_px << " px ("
       << summary.error_max_of_bound << " of the bound), mean " << summary.error_mean_px
       << " px, 99 % below " << summary.error_p99_px << " px\n";
@@ -169,6 +174,7 @@ std::string json_report(const VerifyOptions& options, const VerifySummary& summa
   json["points_between_centres"] = summary.points_between_centres;
   json["missed_between_centres"] = summary.missed_between_centres;
   json["leaning_on_unknown"] = summary.leaning_on_unknown;
+  json["leaning_on_edge"] = summary.leaning_on_edge;
   json["error"] = json_of(summary.errors);
   json["error_without_slack"] = json_of(summary.errors_without_slack);
   json["details"] = summary.details;
