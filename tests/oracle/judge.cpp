@@ -197,8 +197,7 @@ Doubt Judge::search_hairs(PixelSearch& search) const {
   const bool only_class = search.proved(claim_near) && search.proved(claim_far);
   Claims held[relaxed_all];
   for (Claims& claims : held) claims = search.proofs();
-  for (const double radius :
-       {hair, just_inside * bound_px_, 2.0 / 3 * bound_px_, 1.0 / 3 * bound_px_}) {
+  for (const double radius : {hair, just_inside * bound_px_, 0.5 * bound_px_}) {
     for (int ray = 0; ray < rays; ++ray) {
       const ImagePoint offset = radius * turned(search.down(), 2 * pi * ray / rays);
       const FirstHit hit = longer_tracer_.first_hit(camera_.direction(search.centre() + offset));
@@ -248,7 +247,7 @@ void Judge::judge_soundness(double z, const ImagePoint& centre, Judgement& judge
   PixelSearch search(tracer_, camera_, centre, z, eta, judgement.centre);
   search.search_linearly(0.01 * bound_px_, bound_px_ * just_inside);
   for (const double part : {1.0 / 64, 1.0 / 16, 0.125, 0.25, 0.5, 0.75, just_inside}) {
-    if (!search.done()) search.search_cross(part * bound_px_);
+    search.search_cross(part * bound_px_);
   }
   if (!search.done()) judgement.doubt = search_whole_disc(search);
   const double accuracy_px = std::min(0.01 * bound_px_, 0.002);
@@ -278,10 +277,8 @@ void Judge::measure_without_slack(double z, const ImagePoint& centre, Judgement&
   if (judgement.soundness != Verdict::holds) return;
   PixelSearch search(tracer_, camera_, centre, z, stored_slack, judgement.centre);
   search.search_linearly(std::min(1e-3, 0.1 * bound_px_), bound_px_ * just_inside);
-  for (double radius = 1e-5; !search.done() && radius < bound_px_; radius *= 4) {
-    search.search_cross(radius);
-  }
-  if (!search.done()) search.search_cross(bound_px_ * just_inside);
+  for (double radius = 1e-5; radius < bound_px_; radius *= 4) search.search_cross(radius);
+  search.search_cross(bound_px_ * just_inside);
   if (!search.done()) return;
   search.refine(0.03, 1e-6);
   judgement.error_without_slack_is_larger = false;

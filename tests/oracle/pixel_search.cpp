@@ -74,32 +74,44 @@ void PixelSearch::search_linearly(double probe_px, double within_px) {
   const double sign = goal_m > 0 ? 1 : -1;
   const ImagePoint way = (sign * downwards / slope) * down_ + (sign * sideways / slope) * right;
   add(1.01 * radius * way);
-  if (!proved_[lacking]) return;
+  // Only where the slope was looked at is a plane any argument against a smaller disc.
+  if (!proved_[lacking] || 1.01 * radius > 4 * probe_px) return;
   add(0.99 * radius * way);
-  if (size_of(smallest_[lacking]) > 0.99 * radius) failed_px_[lacking] = 0.99 * radius;
+  if (!is_smallest_within(lacking, 0.99 * radius)) failed_px_[lacking] = 0.99 * radius;
+}
+
+bool PixelSearch::is_open_at(double radius_px) const {
+  for (int i = 0; i < claim_count; ++i) {
+    if (!is_smallest_within(i, radius_px) && failed_px_[i] < radius_px) return true;
+  }
+  return false;
 }
 
 void PixelSearch::search_cross(double radius_px) {
   for (const double angle : {0.0, pi, 0.5 * pi, -0.5 * pi}) {
-    if (done()) return;
+    if (!is_open_at(radius_px)) return;
     add(radius_px * turned(down_, angle));
   }
   for (int i = 0; i < claim_count; ++i) {
-    if (!proved_[i]) failed_px_[i] = radius_px;
+    if (!is_smallest_within(i, radius_px)) failed_px_[i] = std::max(failed_px_[i], radius_px);
   }
 }
 
 void PixelSearch::refine(double share, double to_px) {
   for (int i = 0; i < claim_count; ++i) {
     const auto size = [&] { return size_of(smallest_[i]); };
-    while (size() >= radius_px() && size() - failed_px_[i] > std::max(share * size(), to_px)) {
+    const auto tolerance = [&] { return std::max(share * size(), to_px); };
+    // Most often what is known is the smallest already: the first look is for that.
+    double radius = size() - 0.99 * tolerance();
+    while (size() >= radius_px() && size() - failed_px_[i] > tolerance()) {
+      radius = std::max(radius, failed_px_[i]);
       const ImagePoint outermost = (1 / size()) * smallest_[i];
-      const double radius = failed_px_[i] > 0 ? std::sqrt(failed_px_[i] * size()) : 0.25 * size();
       for (const double angle : {0.0, 0.5, -0.5, 1.0, -1.0}) {
         add(radius * turned(outermost, angle));
-        if (size() <= radius * (1 + 1e-12)) break;
+        if (is_smallest_within(i, radius)) break;
       }
-      if (size() > radius * (1 + 1e-12)) failed_px_[i] = radius;
+      if (!is_smallest_within(i, radius)) failed_px_[i] = radius;
+      radius = failed_px_[i] > 0 ? std::sqrt(failed_px_[i] * size()) : 0.25 * size();
     }
   }
 }

@@ -68,10 +68,11 @@ class PixelSearch {
   /// Looks where the surface should cross the pixel's distance if the picture were a plane there:
   /// two rays beside the centre tell its slope. Finds nothing farther than `within_px`.
   void search_linearly(double probe_px, double within_px);
-  /// One ray towards, away from and to both sides of the nadir at a radius.
+  /// One ray towards, away from and to both sides of the nadir at a radius. Nothing to do where
+  /// that is known to be too large or too small.
   void search_cross(double radius_px);
-  /// Halves the distance towards the centre, in several directions, until the radius is known to
-  /// a share of itself or to a number of pixels.
+  /// Looks closer to the centre, in several directions, until the radius is known to a share of
+  /// itself or to a number of pixels. Domain: done().
   void refine(double share, double to_px);
 
   [[nodiscard]] const ImagePoint& centre() const { return centre_; }
@@ -84,6 +85,11 @@ class PixelSearch {
   [[nodiscard]] bool met_unknown() const { return met_unknown_; }
 
  private:
+  [[nodiscard]] bool is_open_at(double radius_px) const;
+  [[nodiscard]] bool is_smallest_within(int claim, double radius_px) const {
+    return proved_[claim] && size_of(smallest_[claim]) <= radius_px * (1 + 1e-12);
+  }
+
   const Tracer& tracer_;
   const Camera& camera_;
   ImagePoint centre_;
