@@ -1,5 +1,6 @@
 #include "tests/oracle/verify.hpp"
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -16,7 +17,17 @@ struct VerifyArguments {
   std::string json_file;
 };
 
+/// Whether a file can be written as far as its folder goes; a file without a name can.
+bool has_folder(const std::string& file) {
+  if (file.empty()) return true;
+  std::error_code fault;
+  return std::filesystem::is_directory(std::filesystem::absolute(file, fault).parent_path(), fault);
+}
+
 int run_verify(const VerifyArguments& arguments) {
+  if (!has_folder(arguments.json_file)) {  // told now, not after the whole run
+    return fail(bad_input, arguments.json_file + ": its folder does not exist");
+  }
   try {
     const oracle::VerifySummary summary = oracle::run_verify(arguments.options, std::cerr);
     oracle::print_summary(summary, std::cout);
@@ -38,7 +49,7 @@ void add_measure_options(CLI::App& command, VerifyArguments& arguments) {
           "--pixels",
           [&options](const std::string& word) {
             options.all_pixels = word == "all";
-            if (!options.all_pixels) options.pixels_per_frame = std::stoi(word);
+            if (!options.all_pixels) CLI::detail::lexical_cast(word, options.pixels_per_frame);
           },
           "pixels a frame, half at depth jumps, or `all`")
       ->check(CLI::Range(1, 100'000'000) | CLI::IsMember({"all"}))
