@@ -18,6 +18,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Beyond this a bound says nothing, and looking for the pixels within it takes for ever.
+constexpr double largest_bound_px = 1024;
+
 std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file.string(), "cannot be opened");
@@ -229,6 +232,7 @@ Frame read_frame_header(const std::filesystem::path& json) {
   frame.height = fields.count("height");
   (void)fields.field("bound_px");
   frame.bound_px = fields.real_if_any("bound_px");
+  if (frame.bound_px && *frame.bound_px > largest_bound_px) fields.wrong("bound_px", "is no bound");
   frame.proven_px = fields.real_if_any("proven_px");
   frame.geometry_px = fields.real_if_any("geometry_px");
   frame.has_range_file = std::filesystem::exists(sibling(json, "_range.npy"));
