@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -70,7 +71,7 @@ BenchError BenchJudge::error_of(const Picture& picture, int pixels) const {
     const double x = std::fmod((k + 0.5) * 0.6180339887498949, 1.0);
     const int u = static_cast<int>(x * frame.width);
     const int v = static_cast<int>((k + 0.5) / pixels * frame.height);
-    const oracle::Judgement judged = judge.judge(u, v, {0.0, 0.0});
+    const oracle::Judgement judged = judge.judge({u, v, std::nullopt, false});
     errors_px.push_back(judged.error_px);
     error.wrong_class_pixels += wrong_class(frame.z(u, v), judged.centre) ? 1 : 0;
   }

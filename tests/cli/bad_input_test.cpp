@@ -167,6 +167,26 @@ TEST(BadDump, missing_incomplete_or_tampered) {
   expect_one_line(verify(dump), 3, {"000000_range.npy"});
 }
 
+TEST(BadOutput, a_report_of_verify_is_whole_or_not_there) {
+  const FlatScene scene;
+  const std::string dump = scene.file("dump"), report = scene.file("report.json");
+  ASSERT_EQ(ridgeline(scene.pose({"--dump", dump})).status, 0);
+  const std::vector<std::string> verify{"verify",   dump,  "--terrain", scene.tiles(),
+                                        "--pixels", "all", "--json"};
+  const auto with = [&](const std::string& file) {
+    std::vector<std::string> words = verify;
+    words.push_back(file);
+    return ridgeline(words);
+  };
+  const Ended ended = with(report);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const std::string text = text_of(report);
+  EXPECT_NE(text.find("\"pixels\": \"all\""), std::string::npos) << text;
+  EXPECT_NE(text.find("\"each_frame\""), std::string::npos);
+  EXPECT_EQ(text.substr(text.size() - 2), "}\n");
+  expect_one_line(with("/nowhere/report.json"), 3, {"/nowhere/report.json"});
+}
+
 TEST(BadOutput, a_dump_folder_that_cannot_be_made) {
   const FlatScene scene;
   expect_one_line(ridgeline(scene.pose({"--dump", scene.log() + "/dump"})), 3, {"flight.log/dump"});

@@ -84,6 +84,15 @@ TEST(Usage, replay_options_outside_their_domain) {
 TEST(Usage, verify_options_outside_their_domain) {
   EXPECT_EQ(ridgeline({"verify", "/nowhere"}).status, 2);  // no --terrain
   EXPECT_EQ(ridgeline({"verify", "/nowhere", "--terrain", "/nowhere", "--pixels", "0"}).status, 2);
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--pixels", "every"},
+                                                {"--pixels", "1.5"},
+                                                {"--walk", "slow"},
+                                                {"--without-slack", "-1"},
+                                                {"--threads", "0"}}) {
+    std::vector<std::string> words{"verify", "/nowhere", "--terrain", "/nowhere"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    expect_one_line(ridgeline(words), 2, {wrong[0]});
+  }
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Beyond this a bound says nothing, and looking for the pixels within it takes for ever.
+constexpr double largest_bound_px = 1024;
+
 std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file.string(), "cannot be opened");
@@ -40,6 +43,12 @@ class Fields {
     const Json& value = field(name);
     if (!value.is_number()) wrong(name, "is not a number");
     return value.get<double>();
+  }
+
+  /// Nothing where the field is absent or null.
+  [[nodiscard]] std::optional<double> real_if_any(const char* name) const {
+    if (!object_.contains(name) || object_.at(name).is_null()) return std::nullopt;
+    return real(name);
   }
 
   [[nodiscard]] int count(const char* name) const {
@@ -221,8 +230,11 @@ Frame read_frame_header(const std::filesystem::path& json) {
   frame.geoid = fields.word("geoid");
   frame.width = fields.count("width");
   frame.height = fields.count("height");
-  const Json& bound = fields.field("bound_px");
-  if (!bound.is_null()) frame.bound_px = fields.real("bound_px");
+  (void)fields.field("bound_px");
+  frame.bound_px = fields.real_if_any("bound_px");
+  if (frame.bound_px && *frame.bound_px > largest_bound_px) fields.wrong("bound_px", "is no bound");
+  frame.proven_px = fields.real_if_any("proven_px");
+  frame.geometry_px = fields.real_if_any("geometry_px");
   frame.has_range_file = std::filesystem::exists(sibling(json, "_range.npy"));
   // A frame is removed because its input is not valid, so the pose may be missing there.
   if (frame.mode == Mode::removed) return frame;

@@ -29,6 +29,8 @@ struct Frame {
   double cy = 0;
   double range_m = 0;
   std::optional<double> bound_px;
+  std::optional<double> proven_px;    ///< what the frame's terms add up to, if it says so
+  std::optional<double> geometry_px;  ///< the part of it that is no terrain level's, if it says so
   Mode mode = Mode::svs;
   std::vector<std::string> reasons;
   std::uint32_t crc32 = 0;  ///< as the JSON says
@@ -60,7 +62,7 @@ struct Frame {
 
 /// What contradicts the contract in a frame as a whole, one sentence each: a bound or range file
 /// where there must be none or none where there must be one, camera axes that are not orthonormal
-/// or not those of the attitude (1e-6), a CRC that is not that of the image, impossible distances.
+/// or not those of the attitude (1e-9), a CRC that is not that of the image, impossible distances.
 [[nodiscard]] std::vector<std::string> frame_faults(const Frame& frame);
 
 /// CRC-32 (ISO 3309), as zlib and PNG use it.

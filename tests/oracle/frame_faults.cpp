@@ -7,7 +7,7 @@ namespace ridgeline::oracle {
 namespace {
 
 void check_axes(const Frame& frame, std::vector<std::string>& faults) {
-  constexpr double tolerance = 1e-6;
+  constexpr double tolerance = 1e-9;  // double rounding, and no more
   const std::array<double, 9>& m = frame.ecef_from_camera;
   const Vec3 axes[3] = {{m[0], m[3], m[6]}, {m[1], m[4], m[7]}, {m[2], m[5], m[8]}};
   double worst = 0;
@@ -62,6 +62,9 @@ std::vector<std::string> frame_faults(const Frame& frame) {
   }
   if (!frame.bound_px || !(*frame.bound_px > 0) || !std::isfinite(*frame.bound_px)) {
     faults.emplace_back("a drawn frame carries no bound");
+  }
+  if (frame.bound_px && frame.proven_px && !(*frame.proven_px <= *frame.bound_px)) {
+    faults.emplace_back("proven_px is above the bound");
   }
   if (frame.mode == Mode::degraded && frame.reasons.empty()) {
     faults.emplace_back("a degraded frame does not say why");

@@ -53,7 +53,8 @@ void draw(std::vector<int>& from, std::size_t count, Random& random) {
 
 }  // namespace
 
-std::vector<ChosenPixel> chosen_pixels(const Frame& frame, int count, std::uint64_t seed) {
+std::vector<ChosenPixel> chosen_pixels(const Frame& frame, int count, std::uint64_t seed,
+                                       int sample_one_in) {
   std::uint64_t mixed = seed;
   for (const char c : frame.name) mixed = mixed * 1099511628211U + static_cast<unsigned char>(c);
   Random random(mixed);
@@ -77,8 +78,14 @@ std::vector<ChosenPixel> chosen_pixels(const Frame& frame, int count, std::uint6
   for (const int index : chosen) {
     const double x = random.unit() - 0.5;
     const double y = random.unit() - 0.5;
-    pixels.push_back({index % frame.width, index / frame.width, {x, y}});
+    // They were drawn in random order, so every n-th of them is a random sample.
+    const bool is_sampled =
+        sample_one_in > 0 && pixels.size() % static_cast<std::size_t>(sample_one_in) == 0;
+    pixels.push_back({index % frame.width, index / frame.width, {x, y}, is_sampled});
   }
+  std::sort(pixels.begin(), pixels.end(), [](const ChosenPixel& a, const ChosenPixel& b) {
+    return a.v != b.v ? a.v < b.v : a.u < b.u;
+  });
   return pixels;
 }
 

@@ -6,38 +6,43 @@
 namespace ridgeline::oracle {
 namespace {
 
-constexpr int nodes = 5;
+constexpr std::size_t nodes = 5;
 
-/// Chebyshev nodes and the values of the first five Chebyshev polynomials there.
+using Values = std::array<double, nodes>;
+
+/// Chebyshev nodes, and what turns values there into the coefficients of the polynomial through
+/// them: coefficient m is the sum over k of from_values[m][k] times value k.
 struct Nodes {
-  std::array<double, nodes> s{};
-  std::array<std::array<double, nodes>, nodes> t{};
+  Values s{};
+  std::array<Values, nodes> from_values{};
 };
 
 Nodes make_nodes() {
   Nodes result;
-  for (int k = 0; k < nodes; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    result.s[at] = std::cos((2 * k + 1) * pi / (2 * nodes));
-    for (int m = 0; m < nodes; ++m) {
-      result.t[static_cast<std::size_t>(m)][at] = std::cos(m * (2 * k + 1) * pi / (2 * nodes));
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const double angle = (2.0 * static_cast<double>(k) + 1) * pi / (2 * nodes);
+    result.s[k] = std::cos(angle);
+    Values a{};  // the share of value k in each Chebyshev coefficient
+    for (std::size_t m = 0; m < nodes; ++m) {
+      a[m] = (m == 0 ? 1.0 : 2.0) / nodes * std::cos(static_cast<double>(m) * angle);
     }
+    const Values of_value{a[0] - a[2] + a[4], a[1] - 3 * a[3], 2 * a[2] - 8 * a[4], 4 * a[3],
+                          8 * a[4]};
+    for (std::size_t m = 0; m < nodes; ++m) result.from_values[m][k] = of_value[m];
   }
   return result;
 }
 
-const Nodes& chebyshev() {
-  static const Nodes made = make_nodes();
-  return made;
-}
+const Nodes chebyshev = make_nodes();
 
-Quartic through(const std::array<double, nodes>& values) {
-  std::array<double, nodes> a{};
+Quartic through(const Values& values) {
+  Quartic result;
   for (std::size_t m = 0; m < nodes; ++m) {
-    for (std::size_t k = 0; k < nodes; ++k) a[m] += values[k] * chebyshev().t[m][k];
-    a[m] *= (m == 0 ? 1.0 : 2.0) / nodes;
+    for (std::size_t k = 0; k < nodes; ++k) {
+      result.c[m] += chebyshev.from_values[m][k] * values[k];
+    }
   }
-  return {{a[0] - a[2] + a[4], a[1] - 3 * a[3], 2 * a[2] - 8 * a[4], 4 * a[3], 8 * a[4]}};
+  return result;
 }
 
 /// The one root of a function that changes sign between `from` and `to`.
@@ -105,12 +110,12 @@ Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to
   Stretch result;
   result.middle_m = 0.5 * (from_m + to_m);
   result.half_m = 0.5 * (to_m - from_m);
-  std::array<double, nodes> lat{};
-  std::array<double, nodes> lon{};
-  std::array<double, nodes> height{};
+  Values lat{};
+  Values lon{};
+  Values height{};
   // The nodes run from the end to the beginning.
   for (std::size_t k = nodes; k-- > 0;) {
-    const Geodetic g = geodetic_from_ecef(eye + result.distance_m(chebyshev().s[k]) * direction);
+    const Geodetic g = geodetic_from_ecef(eye + result.distance_m(chebyshev.s[k]) * direction);
     lat[k] = g.lat_deg;
     lon[k] = g.lon_deg + 360.0 * std::round((near_lon_deg - g.lon_deg) / 360.0);
     near_lon_deg = lon[k];
@@ -123,9 +128,9 @@ Stretch stretch(const Vec3& eye, const Vec3& direction, double from_m, double to
 }
 
 Quartic datum_height_m(const Stretch& stretch, const GeoidPatch& patch) {
-  std::array<double, nodes> values{};
+  Values values{};
   for (std::size_t k = 0; k < nodes; ++k) {
-    const double s = chebyshev().s[k];
+    const double s = chebyshev.s[k];
     values[k] = patch.at(stretch.lat_deg.at(s), stretch.lon_deg.at(s));
   }
   const Quartic undulation = through(values);

@@ -23,6 +23,20 @@ struct Piece {
     const double width = to - from;
     return std::min(height_m->at(from), height_m->at(to)) - height_m->bend() * width * width / 8;
   }
+
+  /// The lowest height that the ray takes over the piece; it turns from falling to rising at most
+  /// once.
+  [[nodiscard]] double attained_low_m() const {
+    double falling = from;
+    double rising = to;
+    if (height_m->slope(falling) < 0 && height_m->slope(rising) > 0) {
+      for (int round = 0; round < 40; ++round) {
+        const double middle = 0.5 * (falling + rising);
+        (height_m->slope(middle) < 0 ? falling : rising) = middle;
+      }
+    }
+    return std::min({height_m->at(from), height_m->at(falling), height_m->at(to)});
+  }
 };
 
 /// Range of a polynomial over [from, to], a bend's slack included.

@@ -96,9 +96,10 @@ Tile dted_without_posts(const std::filesystem::path& file, const Bytes& bytes) {
   if (named && (named->south_deg != tile.south_deg || named->west_deg != tile.west_deg)) {
     throw InputError(file.string(), "DTED header is that of another cell");
   }
-  if (bytes.size() < 3428 + static_cast<std::size_t>(tile.columns) * dted_record_bytes(tile)) {
-    throw InputError(file.string(), "shorter than its DTED header says");
-  }
+  const std::size_t expected =
+      3428 + static_cast<std::size_t>(tile.columns) * dted_record_bytes(tile);
+  if (bytes.size() < expected) throw InputError(file.string(), "shorter than its DTED header says");
+  if (bytes.size() > expected) throw InputError(file.string(), "longer than its DTED header says");
   return tile;
 }
 

@@ -154,11 +154,11 @@ struct HitVisitor {
   }
 
   void unknown(double must_below_m, double may_below_m, const Piece& piece) {
-    // Heights that the ray takes for certain decide `must`, a lower bound decides `may`.
-    const double attained = std::min(piece.height_m->at(piece.from), piece.height_m->at(piece.to));
-    hit.must_be_unknown = hit.must_be_unknown || attained < must_below_m;
+    constexpr double rounding_m = 1e-3;
+    const double lowest = piece.attained_low_m();
+    hit.must_be_unknown = hit.must_be_unknown || lowest < must_below_m;
     hit.may_be_unknown =
-        hit.may_be_unknown || hit.must_be_unknown || piece.lowest_m() < may_below_m;
+        hit.may_be_unknown || hit.must_be_unknown || lowest < may_below_m + rounding_m;
   }
 };
 

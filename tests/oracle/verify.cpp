@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <iomanip>
-#include <map>
 #include <ostream>
 #include <sstream>
 #include <thread>
 #include <utility>
 
 #include "tests/oracle/coverage.hpp"
-#include "tests/oracle/dump.hpp"
 #include "tests/oracle/edits.hpp"
 #include "tests/oracle/input_error.hpp"
-#include "tests/oracle/judge.hpp"
 #include "tests/oracle/pixel_choice.hpp"
 
 namespace ridgeline::oracle {
@@ -25,13 +23,33 @@ constexpr std::size_t details_kept = 20;
 /// Tiles farther than the display range still shape thresholds of unknown ground near its end.
 constexpr double beyond_range_m = 150000;
 
-struct Totals {
-  VerifySummary summary;
-  std::vector<double> errors_px;
+/// Tells how far the run is.
+class Progress {
+ public:
+  Progress(std::ostream& out, std::size_t frames) : out_(out), frames_(frames) {}
 
-  void note(const std::string& line) {
-    if (summary.details.size() < details_kept) summary.details.push_back(line);
+  void frame_done(const VerifySummary& summary, const FrameSummary& frame) {
+    const Clock::time_point now = Clock::now();
+    const bool is_last = summary.frames == frames_;
+    const bool is_soon = now - told_ < std::chrono::milliseconds(500);
+    if (is_soon && !is_last && frame.violations == 0) return;
+    told_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    out_ << "frame " << frame.name << " (" << summary.frames << " of " << frames_
+         << "): " << frame.pixels << " pixels, " << frame.violations << " violations; so far "
+         << summary.pixels << " pixels, " << summary.violations() << " violations, "
+         << std::llround(static_cast<double>(summary.pixels) / std::max(seconds, 1e-3))
+         << " pixels a second\n"
+         << std::flush;
   }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::ostream& out_;
+  std::size_t frames_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point told_ = start_ - std::chrono::hours(1);
 };
 
 /// A distance, `sky` or `unknown`.
@@ -43,7 +61,7 @@ std::string shown(double z) {
   return text.str();
 }
 
-std::string described(const Frame& frame, const ChosenPixel& pixel, const Judgement& judgement) {
+std::string described(const Frame& frame, const Question& pixel, const Judgement& judgement) {
   std::ostringstream text;
   const bool violated =
       judgement.soundness == Verdict::violated || judgement.completeness == Verdict::violated;
@@ -61,55 +79,130 @@ std::string described(const Frame& frame, const ChosenPixel& pixel, const Judgem
   return text.str();
 }
 
-std::vector<Judgement> judgements(const Judge& judge, const std::vector<ChosenPixel>& pixels,
-                                  int threads) {
-  std::vector<Judgement> results(pixels.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    constexpr std::size_t batch = 16;
-    for (std::size_t start = next.fetch_add(batch); start < pixels.size();
-         start = next.fetch_add(batch)) {
-      for (std::size_t i = start; i < std::min(start + batch, pixels.size()); ++i) {
-        results[i] = judge.judge(pixels[i].u, pixels[i].v, pixels[i].offset);
-      }
+/// What is kept of a judgement until its frame is done.
+struct Outcome {
+  double error_px;
+  double without_slack_px;
+  bool was_sampled;
+  bool error_is_larger;
+  bool without_slack_is_larger;
+  bool missed_between_centres;
+  bool leans_on_unknown;
+  bool leans_on_edge;
+  Verdict soundness;
+  Verdict completeness;
+  Doubt doubt;
+
+  explicit Outcome(const Judgement& judgement)
+      : error_px(judgement.error_px),
+        without_slack_px(judgement.error_without_slack_px.value_or(0)),
+        was_sampled(judgement.error_without_slack_px.has_value()),
+        error_is_larger(judgement.error_is_larger),
+        without_slack_is_larger(judgement.error_without_slack_is_larger),
+        missed_between_centres(judgement.missed_between_centres),
+        leans_on_unknown(judgement.leans_on_unknown),
+        leans_on_edge(judgement.leans_on_edge),
+        soundness(judgement.soundness),
+        completeness(judgement.completeness),
+        doubt(judgement.doubt) {}
+};
+
+/// Judges the pixels of one frame and adds them up.
+class FrameRun {
+ public:
+  FrameRun(const Frame& frame, const Terrain& terrain, const VerifyOptions& options)
+      : frame_(frame),
+        options_(options),
+        tracer_(terrain, frame.eye, frame.range_m, options.walk),
+        longer_(terrain, frame.eye, frame.range_m * (1 + 2 * eta), options.walk),
+        judge_(tracer_, longer_, frame, options.strict_edge) {}
+
+  void add_to(VerifySummary& summary, FrameSummary& of_frame) const {
+    const int count =
+        options_.all_pixels ? frame_.width * frame_.height : options_.pixels_per_frame;
+    const std::vector<ChosenPixel> pixels =
+        chosen_pixels(frame_, count, options_.seed, options_.without_slack_one_in);
+    const std::vector<Outcome> outcomes = judged(pixels);
+    if (options_.asks_between()) summary.points_between_centres += pixels.size();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      add(pixels[i], outcomes[i], summary, of_frame);
     }
-  };
-  std::vector<std::thread> workers;
-  for (int i = 1; i < threads; ++i) workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
-  return results;
-}
+  }
 
-void count(const Frame& frame, const ChosenPixel& pixel, const Judgement& judgement,
-           Totals& totals) {
-  VerifySummary& summary = totals.summary;
-  ++summary.pixels;
-  const bool unsound = judgement.soundness == Verdict::violated;
-  const bool incomplete = judgement.completeness == Verdict::violated;
-  const bool open =
-      judgement.soundness == Verdict::undecided || judgement.completeness == Verdict::undecided;
-  if (unsound) ++summary.soundness_violations;
-  if (incomplete) ++summary.completeness_violations;
-  if (!unsound && !incomplete && open) ++summary.undecided;
-  if (unsound || incomplete || open) totals.note(described(frame, pixel, judgement));
-  if (judgement.missed_between_centres) ++summary.missed_between_centres;
-  totals.errors_px.push_back(judgement.error_px);
-  summary.error_max_px = std::max(summary.error_max_px, judgement.error_px);
-  summary.error_max_of_bound =
-      std::max(summary.error_max_of_bound, judgement.error_px / *frame.bound_px);
-}
+ private:
+  [[nodiscard]] Question question(const ChosenPixel& pixel) const {
+    Question question{pixel.u, pixel.v, std::nullopt, pixel.is_sampled};
+    if (options_.asks_between()) question.between = pixel.offset;
+    return question;
+  }
 
-void judge_frame(const Frame& frame, const Terrain& terrain, const VerifyOptions& options,
-                 Totals& totals) {
-  const Tracer tracer(terrain, frame.eye, frame.range_m);
-  const Tracer longer(terrain, frame.eye, frame.range_m * (1 + 2 * eta));
-  const Judge judge(tracer, longer, frame);
-  const std::vector<ChosenPixel> pixels =
-      chosen_pixels(frame, options.pixels_per_frame, options.seed);
-  const std::vector<Judgement> results = judgements(judge, pixels, options.threads);
-  for (std::size_t i = 0; i < pixels.size(); ++i) count(frame, pixels[i], results[i], totals);
-}
+  [[nodiscard]] std::vector<Outcome> judged(const std::vector<ChosenPixel>& pixels) const {
+    std::vector<Outcome> outcomes(pixels.size(), Outcome(Judgement{}));
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      constexpr std::size_t batch = 64;
+      for (std::size_t start = next.fetch_add(batch); start < pixels.size();
+           start = next.fetch_add(batch)) {
+        for (std::size_t i = start; i < std::min(start + batch, pixels.size()); ++i) {
+          outcomes[i] = Outcome(judge_.judge(question(pixels[i])));
+        }
+      }
+    };
+    std::vector<std::thread> workers;
+    for (int i = 1; i < options_.threads; ++i) workers.emplace_back(work);
+    work();
+    for (std::thread& worker : workers) worker.join();
+    return outcomes;
+  }
+
+  void add(const ChosenPixel& pixel, const Outcome& outcome, VerifySummary& summary,
+           FrameSummary& of_frame) const {
+    ++summary.pixels;
+    const bool unsound = outcome.soundness == Verdict::violated;
+    const bool incomplete = outcome.completeness == Verdict::violated;
+    if (unsound) ++summary.soundness_violations;
+    if (incomplete) ++summary.completeness_violations;
+    if (outcome.missed_between_centres) ++summary.missed_between_centres;
+    if (outcome.leans_on_unknown) ++summary.leaning_on_unknown;
+    if (outcome.leans_on_edge) ++summary.leaning_on_edge;
+    if (unsound || incomplete) {
+      if (summary.details.size() < details_kept) summary.details.push_back(told(pixel));
+    } else if (outcome.doubt != Doubt::none) {
+      ++summary.undecided;
+      ++of_frame.undecided;
+      DoubtCount& doubt = summary.doubts[static_cast<std::size_t>(outcome.doubt)];
+      if (doubt.pixels++ == 0) doubt.example = told(pixel);
+    }
+    add_errors(outcome, summary, of_frame);
+  }
+
+  void add_errors(const Outcome& outcome, VerifySummary& summary, FrameSummary& of_frame) const {
+    summary.errors.add(outcome.error_px, outcome.error_is_larger, *frame_.bound_px,
+                       frame_.proven_px);
+    ++of_frame.pixels;
+    of_frame.error_max_px = std::max(of_frame.error_max_px, outcome.error_px);
+    of_frame.error_mean_px += outcome.error_px;
+    if (!outcome.was_sampled) return;
+    summary.errors_without_slack.add(outcome.without_slack_px, outcome.without_slack_is_larger,
+                                     *frame_.bound_px, frame_.proven_px);
+    ++of_frame.without_slack_pixels;
+    of_frame.without_slack_max_px =
+        std::max(of_frame.without_slack_max_px, outcome.without_slack_px);
+    of_frame.without_slack_mean_px += outcome.without_slack_px;
+  }
+
+  /// A judgement in words: judged again, because that of every pixel takes too much memory.
+  [[nodiscard]] std::string told(const ChosenPixel& pixel) const {
+    const Question asked = question(pixel);
+    return described(frame_, asked, judge_.judge(asked));
+  }
+
+  const Frame& frame_;
+  const VerifyOptions& options_;
+  Tracer tracer_;
+  Tracer longer_;
+  Judge judge_;
+};
 
 /// The geoid of the run, which every drawn frame must have been drawn with.
 Geoid geoid_of(const VerifyOptions& options, const std::vector<std::filesystem::path>& files,
@@ -153,14 +246,43 @@ bool is_drawn(const Frame& frame) {
   return frame.mode != Mode::removed;
 }
 
-void finish(Totals& totals) {
-  std::vector<double>& errors = totals.errors_px;
-  if (errors.empty()) return;
-  std::sort(errors.begin(), errors.end());
-  double sum = 0;
-  for (const double error : errors) sum += error;
-  totals.summary.error_mean_px = sum / static_cast<double>(errors.size());
-  totals.summary.error_p99_px = errors[(errors.size() - 1) * 99 / 100];
+bool has_bound(const Frame& frame) {
+  return frame.bound_px && *frame.bound_px > 0 && std::isfinite(*frame.bound_px);
+}
+
+FrameSummary summary_of(const Frame& frame) {
+  FrameSummary of_frame;
+  of_frame.name = frame.name;
+  of_frame.time_s = frame.time_s;
+  of_frame.mode = frame.mode;
+  of_frame.bound_px = frame.bound_px;
+  of_frame.proven_px = frame.proven_px;
+  of_frame.geometry_px = frame.geometry_px;
+  return of_frame;
+}
+
+void judge_frame(const Frame& frame, const std::optional<Terrain>& terrain,
+                 const VerifyOptions& options, VerifySummary& summary) {
+  FrameSummary of_frame = summary_of(frame);
+  const std::size_t violations_before = summary.violations();
+  for (const std::string& fault : frame_faults(frame)) {
+    ++summary.frame_faults;
+    if (summary.details.size() < details_kept) {
+      summary.details.push_back("frame " + frame.name + ": " + fault);
+    }
+  }
+  ++summary.frames;
+  if (!is_drawn(frame)) ++summary.removed_frames;
+  if (is_drawn(frame) && has_bound(frame)) {
+    FrameRun(frame, *terrain, options).add_to(summary, of_frame);
+  }
+  of_frame.violations = summary.violations() - violations_before;
+  const auto mean = [](double& sum, std::size_t count) {
+    if (count > 0) sum /= static_cast<double>(count);
+  };
+  mean(of_frame.error_mean_px, of_frame.pixels);
+  mean(of_frame.without_slack_mean_px, of_frame.without_slack_pixels);
+  summary.each_frame.push_back(std::move(of_frame));
 }
 
 }  // namespace
@@ -176,53 +298,21 @@ VerifySummary run_verify(const VerifyOptions& options, std::ostream& progress) {
     places.push_back({header.eye.lat_deg, header.eye.lon_deg, header.range_m + beyond_range_m});
   }
   Geoid geoid = geoid_of(options, files, headers);
-  Totals totals;
-  std::optional<Terrain> terrain = terrain_of(options, std::move(geoid), places, totals.summary);
+  VerifySummary summary;
+  std::optional<Terrain> terrain = terrain_of(options, std::move(geoid), places, summary);
   std::optional<TimedEdits> edits = edits_of(options, terrain);
+  Progress told(progress, files.size());
   for (const std::filesystem::path& file : files) {
     const Frame frame = read_frame(file);
-    const std::size_t violations_before = totals.summary.violations();
-    const std::size_t pixels_before = totals.summary.pixels;
-    ++totals.summary.frames;
-    bool has_bound = false;
-    for (const std::string& fault : frame_faults(frame)) {
-      ++totals.summary.frame_faults;
-      totals.note("frame " + frame.name + ": " + fault);
-    }
-    if (is_drawn(frame)) {
-      if (edits) edits->advance_to(frame.time_s);
-      has_bound = frame.bound_px && *frame.bound_px > 0 && std::isfinite(*frame.bound_px);
-      if (has_bound) judge_frame(frame, *terrain, options, totals);
-    } else {
-      ++totals.summary.removed_frames;
-    }
-    progress << "frame " << frame.name << ": " << totals.summary.pixels - pixels_before
-             << " pixels, " << totals.summary.violations() - violations_before << " violations\n"
-             << std::flush;
+    if (edits && is_drawn(frame)) edits->advance_to(frame.time_s);
+    judge_frame(frame, terrain, options, summary);
+    told.frame_done(summary, summary.each_frame.back());
   }
-  finish(totals);
-  return totals.summary;
-}
-
-void print_summary(const VerifySummary& summary, std::ostream& out) {
-  for (const std::string& line : summary.refused_tiles)
-    out << "counts as missing: " << line << '\n';
-  for (const std::string& line : summary.details) out << line << '\n';
-  if (summary.sea_cells + summary.ignored_sea_cells > 0) {
-    out << "cells stated to be sea " << summary.sea_cells << " (and " << summary.ignored_sea_cells
-        << " that have a tile file)\n";
-  }
-  out << "frames " << summary.frames << " (removed " << summary.removed_frames << ")\n"
-      << "pixels checked " << summary.pixels << '\n'
-      << "violations " << summary.violations() << " (soundness " << summary.soundness_violations
-      << ", completeness " << summary.completeness_violations << ", frame " << summary.frame_faults
-      << ")\n"
-      << "undecided " << summary.undecided << '\n'
-      << "points between pixel centres that no pixel around brackets "
-      << summary.missed_between_centres << " (for information)\n"
-      << "largest error " << std::setprecision(4) << summary.error_max_px << " px ("
-      << summary.error_max_of_bound << " of the bound), mean " << summary.error_mean_px
-      << " px, 99 % below " << summary.error_p99_px << " px\n";
+  summary.error_max_px = summary.errors.max_px();
+  summary.error_mean_px = summary.errors.mean_px();
+  summary.error_p99_px = summary.errors.percentile_px(0.99);
+  summary.error_max_of_bound = summary.errors.max_of_bound();
+  return summary;
 }
 
 }  // namespace ridgeline::oracle

@@ -92,11 +92,19 @@ TEST_F(Dump, a_missing_field_is_named) {
 
 TEST_F(Dump, fields_of_the_wrong_kind_are_refused) {
   const std::vector<std::pair<const char*, nlohmann::json>> wrong = {
-      {"width", 2.5},    {"height", -1},
-      {"fx", 0},         {"mode", "sunny"},
-      {"reasons", "x"},  {"crc32", "zzz"},
-      {"bound_px", "1"}, {"range_m", nullptr},
-      {"geoid", 7},      {"ecef_from_camera", {1, 2, 3}},
+      {"width", 2.5},
+      {"height", -1},
+      {"fx", 0},
+      {"mode", "sunny"},
+      {"reasons", "x"},
+      {"crc32", "zzz"},
+      {"bound_px", "1"},
+      {"bound_px", 1e9},
+      {"proven_px", "1"},
+      {"geometry_px", true},
+      {"range_m", nullptr},
+      {"geoid", 7},
+      {"ecef_from_camera", {1, 2, 3}},
       {"eye", 5}};
   for (const auto& [field, value] : wrong) {
     scenes::write_frame(folder_.path(), small_frame());

@@ -179,6 +179,8 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame) {
       {"geoid", frame.geoid}};
   json["bound_px"] = nullptr;
   if (frame.bound_px) json["bound_px"] = *frame.bound_px;
+  if (frame.proven_px) json["proven_px"] = *frame.proven_px;
+  if (frame.geometry_px) json["geometry_px"] = *frame.geometry_px;
   std::ofstream(folder / (frame.name + ".json")) << json.dump(1);
 }
 

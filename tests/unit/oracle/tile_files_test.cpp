@@ -134,8 +134,8 @@ TEST(TileFiles, damaged_dted_is_refused) {
   const std::string good = dted("0220000W", "0640000N", 11, 21, 0);
   std::string bad = good;
   bad[3428 + 20] = static_cast<char>(bad[3428 + 20] ^ 1);
-  for (const std::string& bytes :
-       {bad, good.substr(0, good.size() - 1), good.substr(0, 1000), std::string("VOL1") + good}) {
+  for (const std::string& bytes : {bad, good.substr(0, good.size() - 1), good.substr(0, 1000),
+                                   std::string("VOL1") + good, good + '\0'}) {
     write(file, bytes);
     EXPECT_THROW((void)read_tile(file), InputError);
   }

@@ -91,6 +91,22 @@ TEST(Unknown, no_tile_is_unknown_ground_as_well) {
   EXPECT_FALSE(down_to(terrain, 47.0 + 5 * cell_deg, 8.5, 601).must_be_unknown);
 }
 
+TEST(Unknown, a_ray_that_dips_below_the_threshold_between_its_ends_is_seen) {
+  const Terrain terrain({scenes::tile(46, 8, 1200, 1200, [](double, double) { return 500.0; })},
+                        Geoid());
+  // Far from the tile; the ray comes down by 5 m over 8 km and rises as much over the next 8.
+  const Geodetic eye{48.5, 8.5, 503};
+  const double pitch_deg = -8000 / semi_major_m / degree_rad;
+  const CameraAxes axes = camera_axes(level_frame(48.5, 8.5), 0, pitch_deg, 0);
+  const auto meets = [&](double height_m) {
+    return Tracer(terrain, {eye.lat_deg, eye.lon_deg, height_m}, 16000).first_hit(axes.forward);
+  };
+  EXPECT_TRUE(meets(504).must_be_unknown);
+  EXPECT_FALSE(meets(506).must_be_unknown);
+  EXPECT_TRUE(meets(9004).may_be_unknown);
+  EXPECT_FALSE(meets(9006).may_be_unknown);
+}
+
 TEST(Unknown, a_post_that_one_of_two_tiles_knows_is_known) {
   const auto without_its_edge = [](double, double lon) {
     return lon > 9 - 1e-9 ? std::nan("") : 500.0;

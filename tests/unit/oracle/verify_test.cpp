@@ -3,101 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <random>
-#include <sstream>
 
 #include "tests/oracle/camera.hpp"
 #include "tests/oracle/input_error.hpp"
 #include "tests/oracle/tracer.hpp"
-#include "tests/unit/oracle/scenes.hpp"
+#include "tests/unit/oracle/verify_scene.hpp"
 
 namespace ridgeline::oracle {
 namespace {
 
-constexpr float sky = std::numeric_limits<float>::infinity();
-const float unknown = std::nanf("");
-
-/// A folder with terrain and a folder for dumps.
-class Scene {
- public:
-  explicit Scene(const scenes::Surface& surface) {
-    scenes::write_hgt(terrain_.path(), 46, 8, surface);
-    truth_.emplace(Terrain::load(terrain_.path(), Geoid(), {}));
-  }
-
-  [[nodiscard]] Frame drawn(const scenes::Shot& shot) const { return scenes::drawn(*truth_, shot); }
-  [[nodiscard]] const Terrain& truth() const { return *truth_; }
-
-  [[nodiscard]] VerifySummary verified(const Frame& frame, int threads = 2,
-                                       int pixels = 400) const {
-    const scenes::TemporaryFolder dump;
-    scenes::write_frame(dump.path(), frame);
-    VerifyOptions options;
-    options.dump_folder = dump.path();
-    options.terrain_folder = terrain_.path();
-    options.pixels_per_frame = pixels;
-    options.threads = threads;
-    std::ostringstream progress;
-    return run_verify(options, progress);
-  }
-
- private:
-  scenes::TemporaryFolder terrain_;
-  std::optional<Terrain> truth_;
-};
-
-/// Mountains with a void island in them.
-double mountains(double lat, double lon) {
-  static const scenes::Surface hills = scenes::rugged(2500, 21);
-  const bool is_void = std::hypot(lat - 46.45, (lon - 8.48) * 0.69) < 0.03;
-  return is_void ? std::nan("") : hills(lat, lon);
-}
-
-scenes::Shot mountain_shot() {
-  scenes::Shot shot;
-  shot.eye = {46.3, 8.5, 2400};
-  shot.roll_deg = 12;
-  shot.pitch_deg = -4;
-  shot.heading_deg = 350;
-  return shot;
-}
-
-const Scene& mountain_scene() {
-  static const Scene scene(mountains);
-  return scene;
-}
-
-std::string report(const VerifySummary& summary) {
-  std::ostringstream text;
-  print_summary(summary, text);
-  return text.str();
-}
-
-/// The frame whose pixel (u, v) shows what `frame` shows at (u + du, v + dv).
-Frame shifted(const Frame& frame, int du, int dv) {
-  Frame result = frame;
-  for (int v = 0; v < frame.height; ++v) {
-    for (int u = 0; u < frame.width; ++u) {
-      const int from_u = std::min(std::max(u + du, 0), frame.width - 1);
-      const int from_v = std::min(std::max(v + dv, 0), frame.height - 1);
-      result.range[static_cast<std::size_t>(v * frame.width + u)] =
-          static_cast<float>(frame.z(from_u, from_v));
-    }
-  }
-  return result;
-}
-
-Frame changed(const Frame& frame, const std::function<float(float)>& change) {
-  Frame result = frame;
-  for (float& z : result.range) z = change(z);
-  return result;
-}
-
-std::size_t count(const Frame& frame, const std::function<bool(float)>& is) {
-  return static_cast<std::size_t>(std::count_if(frame.range.begin(), frame.range.end(), is));
-}
+using scenes::changed;
+using scenes::count;
+using scenes::mountain_scene;
+using scenes::mountain_shot;
+using scenes::report;
+using scenes::shifted;
+using scenes::sky;
+using scenes::unknown;
+using Scene = scenes::VerifiedScene;
 
 TEST(Verify, a_dump_of_exact_rays_holds) {
   const Frame frame = mountain_scene().drawn(mountain_shot());
@@ -228,14 +152,8 @@ TEST(Verify, an_erased_spire_is_missed) {
   EXPECT_GT(invented.soundness_violations, 0U) << report(invented);
 }
 
-/// A plain at 500 m with a large void in it, seen from above.
-double plain_with_void(double lat, double lon) {
-  const bool is_void = lat > 46.35 && lat < 46.6 && lon > 8.3 && lon < 8.7;
-  return is_void ? std::nan("") : 500.0;
-}
-
 TEST(Verify, ground_that_must_be_unknown_may_be_painted_neither_as_sea_nor_as_sky) {
-  const Scene scene(plain_with_void);
+  const Scene scene(scenes::plain_with_void);
   scenes::Shot shot;
   shot.eye = {46.3, 8.5, 1500};
   shot.pitch_deg = -6;
@@ -299,6 +217,12 @@ TEST(Verify, a_wrong_attitude_is_a_fault_of_the_frame) {
   const VerifySummary summary = mountain_scene().verified(frame);
   EXPECT_EQ(summary.frame_faults, 3U) << report(summary);
   EXPECT_EQ(exit_status(summary), 1);
+}
+
+TEST(Verify, an_attitude_is_that_of_the_axes_to_double_precision) {
+  Frame frame = mountain_scene().drawn(mountain_shot());
+  frame.heading_deg += 1e-6;
+  EXPECT_GT(mountain_scene().verified(frame).frame_faults, 0U);
 }
 
 TEST(Verify, a_removed_frame_holds_no_bound_and_no_distances) {
