@@ -14,6 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t lines_of_failing = 3;  ///< of the oracle's on a case of an attack
+
 double since_s(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -48,8 +50,7 @@ std::string command_of(const AttackCase& c) {
   return "ridgeline verify --case '" + text_of(c) + "'";
 }
 
-void tell_failure(const CaseResult& result, std::ostream& out) {
-  constexpr std::size_t most_lines = 3;
+void tell_failure(const CaseResult& result, std::size_t most_lines, std::ostream& out) {
   if (!result.fault.empty()) out << "  " << result.fault << '\n';
   for (std::size_t k = 0; k < std::min(most_lines, result.details.size()); ++k) {
     out << "  " << result.details[k] << '\n';
@@ -61,7 +62,7 @@ void tell_failing(const AttackCase& c, const CaseResult& result, std::uint64_t n
                   const AttackOptions& options, std::ostream& out) {
   out << "case " << number << " of seed " << options.seed << " fails, " << result.violations
       << " violations:\n  " << command_of(c) << '\n';
-  tell_failure(result, out);
+  tell_failure(result, lines_of_failing, out);
   if (shrink) {
     const bool by_fault = !result.fault.empty();
     CaseResult last = result;
@@ -75,7 +76,7 @@ void tell_failing(const AttackCase& c, const CaseResult& result, std::uint64_t n
     };
     const AttackCase smallest = shrunk(c, fails, options.shrink_tries);
     out << "smallest case found that fails as well:\n  " << command_of(smallest) << '\n';
-    tell_failure(last, out);
+    tell_failure(last, lines_of_failing, out);
   }
   out << std::flush;
 }
@@ -146,7 +147,7 @@ AttackSummary attack(const AttackOptions& options, std::ostream& progress, std::
 CaseResult retell(const AttackCase& c, const JudgeOptions& options, std::ostream& out) {
   CaseResult result = judge_case(c, options);
   if (!result.unusable.empty()) return result;
-  tell_failure(result, out);
+  tell_failure(result, result.details.size(), out);
   for (const auto& [word, count] : result.reasons) {
     out << "removed because " << word << ' ' << count << '\n';
   }

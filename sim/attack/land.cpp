@@ -130,41 +130,41 @@ double east_scale(double latitude_deg) {
   return std::max(metres_per_degree * (1 - of_quarter * of_quarter), 1'000.0);
 }
 
+float stored_post(const AttackCase& c, std::size_t tile, const PostGrid& grid, int row,
+                  int column) {
+  const double north_deg = grid.south_deg + row * grid.latitude_step_deg - c.at_latitude_deg;
+  const double east_deg =
+      std::remainder(grid.west_deg + column * grid.longitude_step_deg - c.at_longitude_deg, 360.0);
+  const Place place{std::llround(north_deg / grid.latitude_step_deg),
+                    std::llround(east_deg / grid.longitude_step_deg),
+                    east_deg * east_scale(c.at_latitude_deg), north_deg * metres_per_degree, tile};
+  double h = 0;
+  for (const Layer& layer : c.land) h = layered(h, layer, place);
+  return stored(h, c.tiles[tile].format);
+}
+
 }  // namespace
 
 std::vector<float> posts_of(const AttackCase& c, std::size_t tile) {
   const PostGrid grid = grid_of(c.tiles[tile]);
-  const double scale = east_scale(c.at_latitude_deg);
   std::vector<float> posts;
   posts.reserve(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns));
   for (int row = 0; row < grid.rows; ++row) {
-    const double north_deg = grid.south_deg + row * grid.latitude_step_deg - c.at_latitude_deg;
     for (int column = 0; column < grid.columns; ++column) {
-      const double east_deg = std::remainder(
-          grid.west_deg + column * grid.longitude_step_deg - c.at_longitude_deg, 360.0);
-      const Place place{std::llround(north_deg / grid.latitude_step_deg),
-                        std::llround(east_deg / grid.longitude_step_deg), east_deg * scale,
-                        north_deg * metres_per_degree, tile};
-      double h = 0;
-      for (const Layer& layer : c.land) h = layered(h, layer, place);
-      posts.push_back(stored(h, c.tiles[tile].format));
+      posts.push_back(stored_post(c, tile, grid, row, column));
     }
   }
   return posts;
 }
 
-CaseLand::CaseLand(const AttackCase& c) {
-  for (std::size_t tile = 0; tile < c.tiles.size(); ++tile) {
-    grids_.push_back(grid_of(c.tiles[tile]));
-    posts_.push_back(posts_of(c, tile));
-  }
+CaseLand::CaseLand(const AttackCase& c) : case_(c) {
+  for (const TilePlan& tile : c.tiles) grids_.push_back(grid_of(tile));
 }
 
 float CaseLand::post_m(std::size_t tile, int row, int column) const {
   const PostGrid& grid = grids_[tile];
-  const int r = std::clamp(row, 0, grid.rows - 1), c = std::clamp(column, 0, grid.columns - 1);
-  return posts_[tile][static_cast<std::size_t>(r) * static_cast<std::size_t>(grid.columns) +
-                      static_cast<std::size_t>(c)];
+  return stored_post(case_, tile, grid, std::clamp(row, 0, grid.rows - 1),
+                     std::clamp(column, 0, grid.columns - 1));
 }
 
 double CaseLand::ground_m(double latitude_deg, double longitude_deg) const {

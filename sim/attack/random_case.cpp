@@ -159,8 +159,8 @@ void choose_picture(Random& r, AttackCase& c) {
   if (r.chance(0.05)) std::swap(c.image.width_px, c.image.height_px);
   c.image.horizontal_field_of_view_deg = r.chance(0.8) ? r.one_of({10, 20, 40, 60, 60, 60, 90, 120})
                                                        : with_decimals(r.between(10, 120), 1);
-  c.error_px = r.chance(0.9) ? r.one_of({0.25, 0.5, 1, 1, 1, 2, 4, 8})
-                             : r.one_of({limits::min_error_px, limits::max_error_px, 0.3, 3});
+  c.error_px = r.chance(0.9) ? r.one_of({least_error_px, 0.5, 1, 1, 1, 2, 4, 8})
+                             : r.one_of({least_error_px, limits::max_error_px, 0.7, 3});
 }
 
 /// The range: about what the tiles reach, and no more posts than a case has time for.
