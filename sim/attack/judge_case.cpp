@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -216,6 +217,7 @@ CaseResult judge_case(const AttackCase& c, const JudgeOptions& options) {
   }
   const pid_t child = ::fork();
   if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to tell
     ::close(ends[0]);
     send(ends[1], as_text(judged_here(c, folder.path(), options)));
     ::_exit(0);

@@ -29,7 +29,7 @@ struct CaseResult {
 struct JudgeOptions {
   int pixels_per_frame = 12'000;
   int threads = 1;
-  double longest_s = 120;  ///< after so many seconds of wall time a case counts as hung
+  double longest_s = 600;  ///< after so many seconds of wall time a case counts as hung
   /// Where the tiles and dumps of the case stay; empty: in a temporary folder, removed afterwards.
   std::string keep_folder;
   /// Applied to every picture before it is dumped. Tests break pictures with it.
