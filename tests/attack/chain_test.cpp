@@ -20,7 +20,7 @@ AttackCase spires() {
   AttackCase c;
   const std::string wrong = parse_case(
       "at=46,8 land=flat:200 land=spires:900,40,5 land=rough:3,1 "
-      "tile=tif16:45.95,7.95,1200,1200,121,121 size=64,48 range=6000 "
+      "tile=tif16:45.97,7.97,1200,1200,85,85 size=48,36 range=4000 "
       "pose=46,8,700,0,-6,30,0 pose=46,8,800,10,-8,120,1 pose=46.01,8.01,900,0,-5,200,2",
       c);
   EXPECT_EQ(wrong, "");
@@ -50,7 +50,7 @@ TEST(Chain, finds_nothing_in_pictures_as_they_are_drawn) {
   EXPECT_EQ(result.unusable, "");
   EXPECT_EQ(result.frames, 3U);
   EXPECT_EQ(result.removed, 0U);
-  EXPECT_EQ(result.pixels, 3U * 64 * 48);
+  EXPECT_EQ(result.pixels, 3U * 48 * 36);
   EXPECT_EQ(result.violations, 0U) << result.details.front();
   EXPECT_EQ(result.levels, 1);
 }
@@ -63,7 +63,7 @@ TEST(Chain, finds_a_lost_silhouette_and_the_smaller_case_still_has_it) {
   ASSERT_FALSE(result.details.empty());
   EXPECT_NE(result.details.front().find("violates"), std::string::npos);
   const auto fails = [&](const AttackCase& c) { return judge_case(c, options).violations > 0; };
-  const AttackCase smallest = shrunk(spires(), fails, 16);
+  const AttackCase smallest = shrunk(spires(), fails, 10);
   EXPECT_TRUE(fails(smallest)) << text_of(smallest);
   EXPECT_EQ(smallest.poses.size(), 1U);
   EXPECT_LT(text_of(smallest).size(), text_of(spires()).size());
