@@ -177,7 +177,7 @@ void choose_range(Random& r, bool polar, int most_posts, AttackCase& c) {
 }
 
 /// A window so small that it takes several levels to reach the range; any of the numbers of levels
-/// that some window has there.
+/// that some window has there, 1 where there is no such window.
 void choose_coarse_window(Random& r, AttackCase& c) {
   std::vector<PostGrid> grids;
   for (const TilePlan& tile : c.tiles) grids.push_back(grid_of(tile));
@@ -189,6 +189,8 @@ void choose_coarse_window(Random& r, AttackCase& c) {
     smallest_mib[static_cast<std::size_t>(sizes.levels)] = mib;
   }
   smallest_mib[0] = smallest_mib[1] = 0;
+  // The last one also stands for windows that do not reach the range.
+  if (r.chance(0.6)) smallest_mib[max_levels] = 0;
   std::erase(smallest_mib, 0.0);
   if (smallest_mib.empty()) return;
   const int last = static_cast<int>(smallest_mib.size()) - 1;
@@ -230,8 +232,13 @@ AttackCase random_case(std::uint64_t seed, std::uint64_t number) {
   }
   const bool gentle = polar || r.chance(0.4);
   const bool coarse = !polar && r.chance(gentle ? 0.9 : 0.25);
-  choose_range(r, polar, coarse ? 500 : 250, c);
-  if (coarse) choose_coarse_window(r, c);
+  choose_range(r, polar, 250, c);
+  if (coarse) {
+    const double other_m = c.range_m;
+    choose_range(r, polar, 500, c);
+    c.range_m = std::max(c.range_m, other_m);
+    choose_coarse_window(r, c);
+  }
   if (r.chance(0.25)) c.arrival = r.chance(0.7) ? Arrival::in_step : Arrival::as_ready;
   choose_land(r, gentle ? Roughness::gentle : Roughness::any, c);
   if (r.chance(0.08)) c.geoid = {r.one_of({5, 20, 80}), r.one_of({10, 5, 2, 1}), r.seed()};
