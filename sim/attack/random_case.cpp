@@ -190,7 +190,7 @@ void choose_coarse_window(Random& r, AttackCase& c) {
   }
   smallest_mib[0] = smallest_mib[1] = 0;
   // The last one also stands for windows that do not reach the range.
-  if (r.chance(0.6)) smallest_mib[max_levels] = 0;
+  if (r.chance(0.4)) smallest_mib[max_levels] = 0;
   std::erase(smallest_mib, 0.0);
   if (smallest_mib.empty()) return;
   const int last = static_cast<int>(smallest_mib.size()) - 1;
@@ -234,9 +234,7 @@ AttackCase random_case(std::uint64_t seed, std::uint64_t number) {
   const bool coarse = !polar && r.chance(gentle ? 0.9 : 0.25);
   choose_range(r, polar, 250, c);
   if (coarse) {
-    const double other_m = c.range_m;
-    choose_range(r, polar, 500, c);
-    c.range_m = std::max(c.range_m, other_m);
+    if (r.chance(0.5)) choose_range(r, polar, 500, c);
     choose_coarse_window(r, c);
   }
   if (r.chance(0.25)) c.arrival = r.chance(0.7) ? Arrival::in_step : Arrival::as_ready;
