@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/commands/attack.hpp"
 #include "sim/commands/commands.hpp"
 #include "sim/commands/scene_arguments.hpp"
 #include "sim/output/atomic_file.hpp"
@@ -88,14 +89,27 @@ void add_verify_command(CLI::App& program, int& status) {
   auto arguments = std::make_shared<VerifyArguments>();
   oracle::VerifyOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("verify", "check a dump against the terrain files");
-  command->add_option("DUMP_DIR", options.dump_folder, "folder of a dump")->required();
-  command->add_option("--terrain", options.terrain_folder, "folder of raw elevation tiles")
-      ->required();
+  auto attacked = std::make_shared<AttackArguments>();
+  command->add_option("DUMP_DIR", options.dump_folder, "folder of a dump");
+  command->add_option("--terrain", options.terrain_folder, "folder of raw elevation tiles");
+  add_attack_options(*command, *attacked);
   command->add_option("--geoid", options.geoid, "geoid file or `none`");
   command->add_option("--coverage", options.coverage_file, "list of cells that are sea");
   command->add_option("--edit", options.edit_file, "timed edits that the replay was given");
   add_measure_options(*command, *arguments);
-  command->callback([arguments, &status] { status = run_verify(*arguments); });
+  command->callback([arguments, attacked, command, &status] {
+    const oracle::VerifyOptions& given = arguments->options;
+    if (attacked->given()) {
+      attacked->seed = given.seed;
+      attacked->threads = given.threads;
+      if (command->count("--pixels") > 0) attacked->pixels_per_frame = given.pixels_per_frame;
+      status = run_attack(*attacked);
+    } else if (given.dump_folder.empty() || given.terrain_folder.empty()) {
+      status = fail(wrong_usage, "verify: DUMP_DIR and --terrain are required (see --help)");
+    } else {
+      status = run_verify(*arguments);
+    }
+  });
 }
 
 }  // namespace ridgeline::sim

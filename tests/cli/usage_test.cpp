@@ -95,5 +95,24 @@ TEST(Usage, verify_options_outside_their_domain) {
   }
 }
 
+TEST(Usage, attack_options_outside_their_domain) {
+  for (const std::string seconds : {"-1", "nan", "soon"}) {
+    expect_one_line(ridgeline({"verify", "--attack", seconds}), 2, {"--attack"});
+  }
+  expect_one_line(ridgeline({"verify", "--cases", "0"}), 2, {"--cases"});
+  expect_one_line(ridgeline({"verify"}), 2, {"DUMP_DIR"});
+  expect_one_line(ridgeline({"verify", "--case", "tile=dt0:46,8"}), 2, {"--case", "pose"});
+  expect_one_line(ridgeline({"verify", "--case", "tile=dt0:46,x pose=46,8,0,0,0,0,0"}), 2,
+                  {"--case", "\"tile=dt0:46,x\""});
+}
+
+TEST(Usage, a_case_is_drawn_and_judged) {
+  const Ended ended =
+      ridgeline({"verify", "--case",
+                 "land=flat:100 tile=dt0:46,8 size=32,24 range=5000 pose=46.5,8.5,700,0,-9,0,0"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("pixels checked 768, violations 0"), std::string::npos) << ended.out;
+}
+
 }  // namespace
 }  // namespace ridgeline::test
