@@ -112,6 +112,15 @@ double Shot::range_m(const GeodeticPosition& point) const {
   return range_m(static_cast<int>(std::floor(seen.u_px)), static_cast<int>(std::floor(seen.v_px)));
 }
 
+std::string Promise::text() const {
+  const std::string word(reason ? reason_word(*reason) : "");
+  const std::string px = pixels_text(most_px) + " px";
+  if (worst == Mode::removed && reason) return "removed: " + word;
+  if (worst == Mode::removed) return "at most " + px + ", or removed while terrain loads";
+  if (worst == Mode::svs) return "svs, bound " + px;
+  return "svs, or " + word + " and at most " + px;
+}
+
 Attitude aimed(const GeodeticPosition& eye, const GeodeticPosition& point) {
   const GeographicLib::LocalCartesian local(eye.latitude_deg, eye.longitude_deg, eye.height_m);
   double east = 0, north = 0, up = 0;
@@ -131,9 +140,10 @@ Shot HardCase::shoot(Stage& stage, const Pose& pose, const Promise& promise) {
   const FrameReport& report = shot.picture.report;
   const std::string command = command_of(stage, pose, shot.picture);
   poses_.push_back(command);
+  promises_.insert(promise.text());
   ++modes_[mode_and_reasons(report.availability)];
   EXPECT_LE(report.availability.mode, promise.worst) << command;
-  if (promise.worst == Mode::removed) {
+  if (promise.worst == Mode::removed && promise.reason) {
     EXPECT_EQ(report.availability.mode, Mode::removed) << command;
     EXPECT_TRUE(shot.says(*promise.reason)) << command;
   }
@@ -143,7 +153,7 @@ Shot HardCase::shoot(Stage& stage, const Pose& pose, const Promise& promise) {
     EXPECT_GE(report.bound_px, shot.picture.wanted_px) << command;
     if (!may_be_larger) {
       EXPECT_EQ(report.bound_px, promise.most_px) << command;
-    } else if (report.availability.mode != Mode::svs) {
+    } else if (report.availability.mode != Mode::svs && promise.reason) {
       EXPECT_TRUE(shot.says(*promise.reason)) << command;
     }
     pixels_ += std::min(shot.picture.range_m.size(), static_cast<std::size_t>(pixels_per_frame_));
@@ -186,6 +196,12 @@ void HardCase::write_row(const oracle::VerifySummary& summary) const {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   row << "| " << test->test_suite_name() << '.' << test->name() << " | " << why_ << " | ";
   const char* comma = "";
+  for (const std::string& promise : promises_) {
+    row << comma << promise;
+    comma = "; ";
+  }
+  row << " | ";
+  comma = "";
   for (const auto& [mode, frames] : modes_) {
     row << comma << frames << " × " << mode;
     comma = ", ";

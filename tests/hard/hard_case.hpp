@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -75,11 +76,15 @@ struct Promise {
   static Promise shorter_range(double most_px = 1) {
     return {Mode::degraded, Reason::range_reduced, most_px};
   }
+  /// While terrain is on its way: drawn with whatever bound and range there is, or not at all.
+  static Promise while_loading() { return {Mode::removed, {}, limits::max_error_px}; }
   static Promise removed(Reason reason) { return {Mode::removed, reason, 0}; }
 
   Mode worst = Mode::svs;
   std::optional<Reason> reason;  ///< that a frame worse than plain gives
   double most_px = 1;            ///< the largest bound
+
+  [[nodiscard]] std::string text() const;
 };
 
 /// 3" posts from 46 N 8 E, 361 x 481 of them: mountains with spires of 400 m.
@@ -130,6 +135,7 @@ class HardCase : public testing::Test {
   std::map<const Land*, int> shots_;
   std::vector<std::string> poses_;
   std::map<std::string, int> modes_;  ///< frames by mode and reasons
+  std::set<std::string> promises_;
   int pixels_per_frame_ = 1 << 20;
   std::size_t pixels_ = 0;  ///< to be judged, of all drawn frames
   double least_px_ = 1e9, most_px_ = 0;

@@ -40,15 +40,13 @@ TEST_F(Place, antimeridian) {
       "out.");
   const PatchShape shape{-17, 179.85, 361, 361};
   const Patch& land = made(shape, hills_over(shape), {{0, 0, 361, 181}, {0, 180, 361, 181}});
-  for (const double bytes : {limits::terrain_gpu_bytes, few_bytes}) {
-    for (const double longitude_deg : {180.0, -180.0, 179.9999, -179.9999}) {
-      const GeodeticPosition eye{-16.85, longitude_deg, land.surface_m(180, 180) + 400};
-      Stage stage(land, {.gpu_bytes = bytes}, eye);
-      const Shot east = shoot(stage, {eye, {0, -9, 90}}, Promise::bound_up_to(16));
-      const Shot west = shoot(stage, {eye, {0, -9, 270}}, Promise::bound_up_to(16));
-      for (const Shot* shot : {&east, &west}) {
-        for (int u = 0; u < 129; ++u) EXPECT_TRUE(std::isfinite(shot->range_m(u, 90)));
-      }
+  for (const double longitude_deg : {180.0, -180.0, 179.9999, -179.9999}) {
+    const bool several = std::abs(longitude_deg) < 180;
+    const GeodeticPosition eye{-16.85, longitude_deg, land.surface_m(180, 180) + 400};
+    Stage stage(land, {.gpu_bytes = several ? few_bytes : limits::terrain_gpu_bytes}, eye);
+    for (const double heading : {90.0, 270.0}) {
+      const Shot shot = shoot(stage, {eye, {0, -9, heading}}, Promise::bound_up_to(16));
+      for (int u = 0; u < 129; ++u) EXPECT_TRUE(std::isfinite(shot.range_m(u, 90)));
     }
   }
   also("no pixel of a row below the horizon is unknown or sky on either side");
