@@ -176,7 +176,7 @@ bool parse_single(std::string_view key, std::string_view value, AttackCase& c) {
     c.image.horizontal_field_of_view_deg =
         numbers.next(limits::min_field_of_view_deg, limits::max_field_of_view_deg);
   } else if (key == "error") {
-    c.error_px = numbers.next(limits::min_error_px, limits::max_error_px);
+    c.error_px = numbers.next(1e-4, limits::max_error_px);
   } else if (key == "range") {
     c.range_m = numbers.next(limits::min_range_m, limits::max_range_m);
   } else {

@@ -11,9 +11,8 @@ namespace {
 
 constexpr double metres_per_degree = 111'195;
 
-/// Below 1 - 1/sqrt(2) px the disc of completeness holds one pixel centre only, and a distance that
-/// a grazing ray leaves off by more than the slack has nothing to hide behind.
-constexpr double least_error_px = 0.3;
+/// Here the disc of completeness holds one pixel centre only (docs/adr/0014).
+constexpr double least_error_px = 0.25;
 
 /// Rough posts of longitude a degree that make cells about square.
 int across(int lat_per_deg, double latitude_deg) {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t most_edits = 64;
 constexpr std::size_t most_posts = 65536;
-constexpr double lowest_m = -12000;
-constexpr double highest_m = 9000;
+constexpr double lowest_m = lowest_ground_m;
+constexpr double highest_m = highest_ground_m;
 constexpr std::size_t words_before_heights = 7;
 
 std::optional<double> real(std::string_view word) {

@@ -48,7 +48,8 @@ const char* name_of(Doubt doubt) {
                                    "grazing",
                                    "search_ended",
                                    "completeness_at_end_of_range",
-                                   "completeness_by_a_hair"};
+                                   "completeness_by_a_hair",
+                                   "completeness_within_geometry"};
   static_assert(std::size(names) == doubt_count);
   return names[static_cast<std::size_t>(doubt)];
 }
@@ -328,12 +329,48 @@ Judge::Bracket Judge::bracket(const ImagePoint& point, const FirstHit& hit) cons
   });
   if (below && above) return Bracket::by_known;
   if (meets_unknown && hit.may_be_unknown) return Bracket::by_unknown;
+  if (meets_unknown) {
+    // An unknown pixel counts as the truth of its own ray, where that may be unknown.
+    for_each_pixel_around(point, [&](int u, int v) {
+      if (!is_inside(u, v) || !std::isnan(frame_.z(u, v))) return false;
+      const FirstHit hidden = tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5}));
+      return hidden.may_be_unknown && join(hidden.distance_m);
+    });
+    if (below && above) return Bracket::by_unknown;
+  }
   if (!meets_edge || strict_edge_) return Bracket::none;
   for_each_pixel_around(point, [&](int u, int v) {
     if (is_inside(u, v)) return false;
     return join(tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5})).distance_m);
   });
   return below && above ? Bracket::by_edge : Bracket::none;
+}
+
+bool Judge::is_complete_within(const ImagePoint& point, double radius_px) const {
+  constexpr int rays = 16, rings = 6;
+  double nearest_m = infinity, farthest_m = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int ray = 0; ray < rays; ++ray) {
+      const double angle = 2 * pi * (ray + 0.5 * (ring % 2)) / rays;
+      const double radius = std::ldexp(radius_px, -ring);
+      const ImagePoint beside = point + radius * ImagePoint{std::cos(angle), std::sin(angle)};
+      const double distance_m = tracer_.first_hit(camera_.direction(beside)).distance_m;
+      nearest_m = std::min(nearest_m, distance_m);
+      farthest_m = std::max(farthest_m, distance_m);
+    }
+  }
+  bool below = false, above = false;
+  for_each_pixel_around(point, [&](int u, int v) {
+    const bool is_inside = u >= 0 && v >= 0 && u < frame_.width && v < frame_.height;
+    if (!is_inside && strict_edge_) return false;
+    const double z = is_inside && !std::isnan(frame_.z(u, v))
+                         ? frame_.z(u, v)
+                         : tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5})).distance_m;
+    below = below || z * (1 - eta) <= farthest_m;
+    above = above || z * (1 + eta) >= nearest_m;
+    return below && above;
+  });
+  return below && above;
 }
 
 Doubt Judge::completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit) const {
@@ -352,6 +389,11 @@ Doubt Judge::completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit
     if (bracket(beside, tracer_.first_hit(camera_.direction(beside))) != Bracket::none) {
       return Doubt::completeness_by_a_hair;
     }
+  }
+  // What the frame says that rounding may move; never more than a tenth of a pixel of it.
+  const double geometry_px = std::min(frame_.geometry_px.value_or(0.0), 0.1);
+  if (geometry_px > 0 && is_complete_within(point, geometry_px)) {
+    return Doubt::completeness_within_geometry;
   }
   return Doubt::none;
 }

@@ -31,9 +31,10 @@ enum class Doubt {
   grazing,        ///< the arc search came within 1e-4 of the disc to the surface, and not to it
   search_ended,   ///< the arc search was cut short
   completeness_at_end_of_range,
-  completeness_by_a_hair  ///< complete for a point 1e-6 px from the pixel's centre
+  completeness_by_a_hair,       ///< complete for a point 1e-6 px from the pixel's centre
+  completeness_within_geometry  ///< and for the rays within the frame's own `geometry_px` of it
 };
-inline constexpr std::size_t doubt_count = 10;
+inline constexpr std::size_t doubt_count = 11;
 /// The enumerator's own name.
 [[nodiscard]] const char* name_of(Doubt doubt);
 
@@ -92,10 +93,11 @@ struct Question {
 /// one more point of the pixel: even a frame of exact rays through the centres misses extremes that
 /// lie between four of them, so the promise, which speaks of pixels, is read as one about their
 /// centres. An unknown pixel may hide anything behind unknown ground: it serves as both ends of the
-/// interval where the ray at the point *may* be unknown. Pixels beyond the edge of the image count
-/// as drawn exactly, unless the edge is strict: what truly stands in the last row may be nearer
-/// than anything a picture with any error at all shows there, so without them no bound but 0 would
-/// do. How often either of these two rules decides is counted. Owner:  views all three arguments.
+/// interval where the ray at the point *may* be unknown, and counts as the truth of its own ray
+/// where that may. Pixels beyond the edge of the image count as drawn exactly, unless the edge is
+/// strict: what truly stands in the last row may be nearer than anything a picture with any error
+/// at all shows there, so without them no bound but 0 would do. How often either of these two rules
+/// decides is counted. Owner:  views all three arguments.
 class Judge {
  public:
   /// With `strict_edge` only pixels of the image count, to the letter of the contract.
@@ -121,6 +123,9 @@ class Judge {
   void measure_without_slack(double z, const ImagePoint& centre, Judgement& judgement) const;
 
   void judge_completeness(const ImagePoint& centre, double z, Judgement& judgement) const;
+  /// Whether the truth over a small disc, from its nearest to its farthest ray, meets the interval
+  /// of the pixels around (docs/adr/0014).
+  [[nodiscard]] bool is_complete_within(const ImagePoint& point, double radius_px) const;
   [[nodiscard]] Doubt completeness_by_a_hair(const ImagePoint& point, const FirstHit& hit) const;
   template <class Take>
   void for_each_pixel_around(const ImagePoint& point, const Take& take) const;

@@ -68,6 +68,15 @@ class Posts {
   std::vector<float> real_;
 };
 
+/// Heights that no ground or sea bed of the Earth has are marks of one kind or another: such a post
+/// is void, in every format. Units: m (docs/adr/0014).
+inline constexpr double lowest_ground_m = -12000;
+inline constexpr double highest_ground_m = 9000;
+[[nodiscard]] inline float known_or_void(double height_m) {
+  const bool known = height_m >= lowest_ground_m && height_m <= highest_ground_m;
+  return known ? static_cast<float>(height_m) : void_post;
+}
+
 /// One tile as the file has it, or a cell of stated sea. Posts are points.
 /// Units: m above the file's vertical datum.
 struct Tile : Grid {

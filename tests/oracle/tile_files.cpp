@@ -152,6 +152,9 @@ std::optional<DegreeCell> cell_in_name(const std::filesystem::path& file) {
   return cell;
 }
 
+/// Tools without a void of their own write this to .hgt files.
+constexpr int hgt_void_m = -9999;
+
 Tile read_hgt(const std::filesystem::path& file) {
   Tile tile = hgt_without_posts(file);
   std::ifstream in(file, std::ios::binary);
@@ -164,7 +167,7 @@ Tile read_hgt(const std::filesystem::path& file) {
     for (int column = 0; column < tile.columns; ++column) {
       const unsigned raw = big_endian_16(bytes, 2 * static_cast<std::size_t>(column));
       const auto value = static_cast<std::int16_t>(raw);
-      tile.set(row, column, value == -32768 ? void_post : static_cast<float>(value));
+      tile.set(row, column, value == hgt_void_m ? void_post : known_or_void(value));
     }
   }
   return tile;
@@ -187,7 +190,7 @@ Tile read_dted(const std::filesystem::path& file) {
       const unsigned raw = big_endian_16(bytes, start + 8 + 2 * static_cast<std::size_t>(row));
       const int magnitude = static_cast<int>(raw & 0x7FFFU);
       const int value = (raw & 0x8000U) != 0 ? -magnitude : magnitude;
-      tile.set(row, column, value == -32767 ? void_post : static_cast<float>(value));
+      tile.set(row, column, known_or_void(value));
     }
   }
   return tile;

@@ -96,7 +96,7 @@ void read_posts(const std::string& file, GDALRasterBandH band, Tile& tile) {
       // The two customary voids of 16-bit terrain hold even where a file forgets to declare one.
       const bool is_void = (has_no_data != 0 && value == no_data) || !std::isfinite(value) ||
                            (is_int16 && value <= -32767);
-      tile.set(row, column, is_void ? void_post : static_cast<float>(value * scale + offset));
+      tile.set(row, column, is_void ? void_post : known_or_void(value * scale + offset));
     }
   }
 }
