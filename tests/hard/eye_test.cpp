@@ -167,10 +167,12 @@ TEST_F(Eye, below_the_terrain) {
     }
     const GeodeticPosition on_a_post = land.over(180, 240, 0);
     shoot(stage, {on_a_post, {0, -4, 70}}, Promise::removed(Reason::below_terrain));
-    shoot(stage, {land.over(171.3, 233.7, 0.01), {0, -4, 70}},
+    shoot(stage, {land.over(171.3, 233.7, 0.04), {0, -4, 70}},
+          Promise::removed(Reason::below_terrain));
+    shoot(stage, {land.over(171.3, 233.7, 0.06), {0, -4, 70}},
           Promise::bound_up_to(limits::max_error_px));
   });
-  also("1 mm below or exactly on a post is removed, 1 cm above is drawn");
+  also("up to 5 cm above the ground counts as below it, 6 cm is drawn");
 }
 
 TEST_F(Eye, twenty_kilometres_up) {

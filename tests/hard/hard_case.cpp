@@ -116,8 +116,9 @@ std::string Promise::text() const {
   const std::string word(reason ? reason_word(*reason) : "");
   const std::string px = pixels_text(most_px) + " px";
   if (worst == Mode::removed && reason) return "removed: " + word;
-  if (worst == Mode::removed) return "at most " + px + ", or removed while terrain loads";
+  if (worst == Mode::removed) return "at most " + px + ", or removed";
   if (worst == Mode::svs) return "svs, bound " + px;
+  if (!reason) return "svs, or bound_exceeded or range_reduced and at most " + px;
   return "svs, or " + word + " and at most " + px;
 }
 
@@ -146,6 +147,9 @@ Shot HardCase::shoot(Stage& stage, const Pose& pose, const Promise& promise) {
   if (promise.worst == Mode::removed && promise.reason) {
     EXPECT_EQ(report.availability.mode, Mode::removed) << command;
     EXPECT_TRUE(shot.says(*promise.reason)) << command;
+  }
+  if (promise.worst == Mode::degraded && report.availability.mode == Mode::degraded) {
+    EXPECT_TRUE(shot.says(Reason::bound_exceeded) || shot.says(Reason::range_reduced)) << command;
   }
   if (shot.drawn()) {
     const bool may_be_larger = promise.worst != Mode::svs;
@@ -187,7 +191,7 @@ void HardCase::TearDown() {
   EXPECT_EQ(summary.frames, shots);
   EXPECT_EQ(summary.pixels, pixels_) << "every pixel asked for is judged";
   EXPECT_EQ(summary.violations(), 0U) << details;
-  EXPECT_EQ(summary.undecided, 0U) << details;
+  EXPECT_LE(summary.undecided, most_undecided_) << details;
   write_row(summary);
 }
 

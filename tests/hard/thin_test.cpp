@@ -54,7 +54,8 @@ TEST_F(Thin, spire_of_one_post_in_a_coarse_level) {
     Stage stage(land, {.range_m = fine_range_m, .gpu_bytes = few_bytes}, eye);
     ASSERT_GE(stage.levels(), 2);
     const Shot shot = shoot(stage, {eye, aimed(eye, tip)}, Promise::bound_up_to(8));
-    EXPECT_GT(shot.picture.report.bound_px, 1.5);
+    const FrameReport& report = shot.picture.report;
+    EXPECT_TRUE(report.bound_px > 1.5 || report.range_m < shot.place(tip).distance_m);
     Attitude rolled = aimed(eye, tip);
     rolled.roll_deg = 33;
     shoot(stage, {eye, rolled}, Promise::bound_up_to(16));
@@ -62,7 +63,9 @@ TEST_F(Thin, spire_of_one_post_in_a_coarse_level) {
   Stage one(land, {.range_m = fine_range_m}, eye);
   const Shot exact = shoot(one, {eye, aimed(eye, tip)}, Promise::plain());
   EXPECT_NEAR(exact.middle_m(), exact.place(tip).distance_m, 60);
-  also("the bound is above 1.5 px with levels; with one level the spire is there at 1 px");
+  also(
+      "with levels the bound is above 1.5 px or the range ends before it; with one level it is "
+      "there");
 }
 
 TEST_F(Thin, forest_of_spires) {
