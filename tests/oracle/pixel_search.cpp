@@ -70,7 +70,7 @@ void PixelSearch::search_linearly(double probe_px, double within_px) {
   const double slope = std::sqrt(downwards * downwards + sideways * sideways);
   const double goal_m = z_ * (lacking == claim_near ? 1 + slack_ : 1 - slack_) - centre_m_;
   const double radius = std::abs(goal_m) / slope;
-  if (!(1.01 * radius < within_px)) return;
+  if (!(slope < infinity) || !(1.01 * radius < within_px)) return;  // no plane beside the sky
   const double sign = goal_m > 0 ? 1 : -1;
   const ImagePoint way = (sign * downwards / slope) * down_ + (sign * sideways / slope) * right;
   add(1.01 * radius * way);

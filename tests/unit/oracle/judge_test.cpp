@@ -202,6 +202,54 @@ TEST(Judge, the_edge_of_the_image_lends_pixels_unless_it_is_strict) {
   EXPECT_EQ(bench.judged(32, 47, true).completeness, Verdict::violated);
 }
 
+/// A ridge across the line of sight.
+double ridge(double lat, double /*lon*/) {
+  return 300 + std::max(0.0, 900 - 90'000 * std::abs(lat - 46.3));
+}
+
+// 2026-11-23: a crest that passes a pixel's centre by less than the frame's own rounding.
+TEST(Judge, what_rounding_can_move_is_told_from_what_is_left_out) {
+  scenes::Shot shot = level_shot();
+  shot.roll_deg = 10;  // the crest passes pixels' centres at every distance
+  Bench bench(ridge, shot);
+  bench.frame.bound_px = 0.25;
+  int found = 0;
+  for (int v = 1; v < bench.frame.height; ++v) {
+    for (int u = 0; u < bench.frame.width; ++u) {
+      const double here = bench.truth_m(u + 0.5, v + 0.5), above = bench.truth_m(u + 0.5, v + 0.42);
+      if (!(here < 0.9 * above)) continue;
+      ++found;
+      const double shown = bench.frame.z(u, v);
+      bench.show(u, v, above);
+      bench.frame.geometry_px = std::nullopt;
+      EXPECT_EQ(bench.judged(u, v).completeness, Verdict::violated);
+      bench.frame.geometry_px = 0.01;
+      EXPECT_EQ(bench.judged(u, v).completeness, Verdict::violated);
+      bench.frame.geometry_px = 0.09;
+      const Judgement within = bench.judged(u, v);
+      EXPECT_EQ(within.soundness, Verdict::holds);
+      EXPECT_EQ(within.completeness, Verdict::undecided);
+      EXPECT_EQ(within.doubt, Doubt::completeness_within_geometry);
+      bench.show(u, v, shown);
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
+// 2026-11-23: the plane through a probe that meets the sky led to a ray of no direction.
+TEST(Judge, an_error_beside_the_sky_is_measured_as_any_other) {
+  Bench bench(ridge, level_shot());
+  for (int v = 0; v < bench.frame.height; ++v) {
+    for (int u = 0; u < bench.frame.width; u += 7) {
+      const double z = bench.frame.z(u, v);
+      if (!std::isfinite(z)) continue;
+      bench.show(u, v, z * (1 + 3 * eta));
+      const Judgement judgement = bench.judged(u, v);
+      EXPECT_TRUE(std::isfinite(judgement.error_px));
+    }
+  }
+}
+
 TEST(Judge, every_doubt_has_a_name) {
   for (std::size_t i = 0; i < doubt_count; ++i) {
     EXPECT_NE(std::string(name_of(static_cast<Doubt>(i))), "");
