@@ -62,6 +62,18 @@ void share_posts_of(Tile& a, Tile& b) {
   }
 }
 
+/// A tile that goes round the whole Earth meets itself: its first and last columns are the same
+/// posts.
+void share_own_posts(Tile& tile) {
+  const double turn = (tile.columns - 1) * tile.lon_step_deg;
+  if (std::abs(turn - 360) > same_post_steps * tile.lon_step_deg) return;
+  for (int row = 0; row < tile.rows; ++row) {
+    const float height = taller(tile.at(row, 0), tile.at(row, tile.columns - 1));
+    tile.set(row, 0, height);
+    tile.set(row, tile.columns - 1, height);
+  }
+}
+
 bool is_near(const Tile& tile, const std::vector<Neighbourhood>& places) {
   return places.empty() ||
          std::any_of(places.begin(), places.end(), [&](const Neighbourhood& place) {
@@ -166,6 +178,7 @@ Terrain::Terrain(std::vector<Tile> tiles, Geoid geoid, double lowest_elsewhere_m
 }
 
 void Terrain::share_posts() {
+  for (TerrainTile& entry : tiles_) share_own_posts(entry.tile);
   // Only tiles whose latitudes meet can share a post.
   std::vector<std::size_t> from_south(tiles_.size());
   std::iota(from_south.begin(), from_south.end(), std::size_t{0});

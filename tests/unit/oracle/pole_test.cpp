@@ -194,6 +194,32 @@ TEST(Pole, posts_that_disagree_about_the_pole_are_believed_each_in_its_cell) {
   expect_sampled_truth(rings(-90, -89, 60, hills), -1, 200, 100);
 }
 
+// 2026-11-23: found by the random attack.
+TEST(Pole, a_tile_round_the_whole_earth_meets_itself_with_the_taller_posts) {
+  Tile tile;
+  tile.south_deg = 10;
+  tile.west_deg = -180;
+  tile.lat_step_deg = 1;
+  tile.lon_step_deg = 10;
+  tile.rows = 3;
+  tile.columns = 37;
+  tile.posts.resize(tile.index(tile.rows, 0));
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int column = 0; column < tile.columns; ++column) tile.set(row, column, 5);
+  }
+  tile.set(1, 0, 50);
+  tile.set(1, 36, 80);
+  tile.set(2, 0, void_post);
+  std::vector<Tile> tiles;
+  tiles.push_back(std::move(tile));
+  const Terrain terrain(std::move(tiles), Geoid());
+  const Tile& held = terrain.tiles()[0].tile;
+  EXPECT_EQ(held.at(1, 0), 80);
+  EXPECT_EQ(held.at(1, 36), 80);
+  EXPECT_EQ(held.at(2, 0), 5);
+  EXPECT_EQ(held.at(0, 18), 5);
+}
+
 TEST(Pole, a_geoid_goes_round_it) {
   std::vector<float> nodes;
   for (int i = 0; i < 13 * 24; ++i) nodes.push_back(static_cast<float>(i * 37 % 101 - 50));
