@@ -79,6 +79,25 @@ PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, cons
   return grid;
 }
 
+/// The frame of a method that promises nothing: no budget, no grid, the whole range.
+FrameReport draw_instead(const FrameSettings& settings, FrameReport report,
+                         const TerrainKeeper& terrain, Renderer& renderer, FrameBlocks& blocks) {
+  add_reason(report.availability, Reason::unproven);
+  const auto map = ground_map(report.local, report.range_m, terrain.lattice().chart,
+                              {report.window.lowest_m, report.window.highest_m});
+  if (!map) {
+    add_reason(report.availability, Reason::no_bound);
+    return report;
+  }
+  const TerrainView view = terrain.view();
+  blocks = frame_blocks(report.local, report.camera, map.value(), PolarGrid{}, view,
+                        report.window.highest_m);
+  renderer.begin_range(blocks);
+  settings.instead.draw(settings.instead.context, {report, map.value(), view, blocks, renderer});
+  renderer.end_range();
+  return report;
+}
+
 FrameReport removed(FrameReport report, Reason reason) {
   add_reason(report.availability, reason);
   return report;
@@ -119,6 +138,10 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   const Clearance clearance = terrain.clearance(input.eye);
   if (clearance.kind == Clearance::Kind::below) return removed(report, Reason::below_terrain);
   if (clearance.kind == Clearance::Kind::undecided) return removed(report, Reason::terrain_loading);
+
+  if (settings.instead.draw != nullptr) {
+    return draw_instead(settings, report, terrain, renderer, blocks);
+  }
 
   // Error budget: range, ground map and bound.
   const auto promise = honest_promise(settings, report, terrain, clearance);

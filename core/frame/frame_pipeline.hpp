@@ -7,6 +7,22 @@
 
 namespace ridgeline {
 
+/// What an alternative to the module's own passes draws the range picture of one frame from.
+struct RangeScene {
+  const FrameReport& report;  ///< camera, local frame, range
+  const GroundMap& map;
+  const TerrainView& view;
+  const FrameBlocks& blocks;  ///< its grid is not used
+  Renderer& renderer;         ///< between begin_range() and end_range()
+};
+
+/// Draws a range picture instead of the module's own passes: how the benchmark measures other
+/// methods on the same objects (sim/methods). Such a frame promises no bound and says so.
+struct RangePass {
+  void (*draw)(void* context, const RangeScene& scene) = nullptr;
+  void* context = nullptr;
+};
+
 /// What stays the same from frame to frame.
 struct FrameSettings {
   ImageGeometry image;
@@ -17,6 +33,7 @@ struct FrameSettings {
   /// Every pixel by the ray cast pass, no projected grid: the plain max-pyramid ray caster that the
   /// benchmark compares with.
   bool cast_every_pixel = false;
+  RangePass instead;  ///< of the module's own passes; none in the product
 };
 
 /// What one frame is drawn from.

@@ -18,7 +18,7 @@ struct FrameReport {
   LocalFrame local;  ///< meaningful unless no position was given
   Camera camera;
   double range_m = 0;   ///< display range of this frame
-  double bound_px = 0;  ///< 0 in a removed frame, which has none
+  double bound_px = 0;  ///< 0 where there is none: removed frames, methods without a proof
   ErrorBudget budget;
   int planes = 0, rows = 0;  ///< of the projected grid; 0 when every pixel was ray cast
   std::int64_t nodes = 0;

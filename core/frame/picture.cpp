@@ -209,11 +209,13 @@ std::span<const std::uint8_t> text_layer(const FrameReport& report, std::span<st
     return used;
   }
   char bound[48];
-  const int count = std::snprintf(bound, sizeof bound, "BOUND %.2f PX", report.bound_px);
+  const bool unproven = has_reason(availability, Reason::unproven);
+  const int count = unproven ? std::snprintf(bound, sizeof bound, "NO BOUND")
+                             : std::snprintf(bound, sizeof bound, "BOUND %.2f PX", report.bound_px);
   const std::string_view words(bound, static_cast<std::size_t>(std::max(count, 0)));
   const int left = width - TextLayer::text_width(words, scale) - edge;
   const bool beside = left > TextLayer::text_width(notice, scale) + 3 * edge;
-  const bool raised = has_reason(availability, Reason::bound_exceeded);
+  const bool raised = unproven || has_reason(availability, Reason::bound_exceeded);
   text.line(words, left, height - (beside ? step : 2 * step), scale,
             ink_of(raised ? Mode::degraded : Mode::svs));
   int y = edge;

@@ -142,24 +142,35 @@ void Renderer::bind_window() const {
   glBindTexture(GL_TEXTURE_2D_ARRAY, highest_.name());
 }
 
-void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                            std::span<const float> slopes) {
+void Renderer::begin_range(const FrameBlocks& blocks) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
   const std::uint32_t zeros[8] = {};
   write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
   write_buffer(ubo, grid_block_, &blocks.grid, sizeof blocks.grid);
-  write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
-  write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   write_buffer(ssbo, counters_, zeros, sizeof zeros);
   glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
   glBindBufferBase(ubo, shader::grid_block_binding, grid_block_.name());
-  glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
-  glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
   glBindBufferBase(ssbo, shader::counters_buffer, counters_.name());
   bind_window();
-  bind_texture(shader::nodes_unit, nodes_);
-
   timer_.stamp(static_cast<int>(Pass::grid));
+}
+
+void Renderer::end_range() {
+  bind_texture(shader::range_unit, range_);
+  glUseProgram(count_.name());
+  glDispatchCompute(groups(sizes_.height_px, 16), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                            std::span<const float> slopes) {
+  constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
+  write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
+  write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
+  glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
+  glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
+  begin_range(blocks);
+  bind_texture(shader::nodes_unit, nodes_);
   if (!planes.empty()) {
     glUseProgram(sweep_.name());
     glBindImageTexture(shader::target_image, nodes_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
@@ -168,10 +179,7 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
   fill_target(range_target_, ray_cast_);
-  bind_texture(shader::range_unit, range_);
-  glUseProgram(count_.name());
-  glDispatchCompute(groups(sizes_.height_px, 16), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  end_range();
 }
 
 void Renderer::fill_target(const Framebuffer& target, const Program& program) {

@@ -39,6 +39,18 @@ class Renderer {
   /// Puts one block into its place in the terrain window.
   void upload_block(const TerrainBlock& block, const BlockSlot& slot);
 
+  /// What a measured alternative to the module's own passes draws with (sim/methods).
+  struct Names {
+    GLuint posts = 0;    ///< array texture of posts, one layer a level
+    GLuint highest = 0;  ///< array texture of the maxima, as shaders/terrain.glsl reads it
+    GLuint range = 0;    ///< R32UI target: distance as float bits, as ray_cast.frag writes it
+  };
+  [[nodiscard]] Names names() const { return {posts_.name(), highest_.name(), range_.name()}; }
+  /// Begins a range picture that others draw: frame block, window and counters are bound.
+  void begin_range(const FrameBlocks& blocks);
+  /// Ends it: counts its pixels as after the module's own passes.
+  void end_range();
+
   /// Draws one frame into the renderer's own targets; `nodes` planes of the grid are swept.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
                     std::span<const float> slopes);

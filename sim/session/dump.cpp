@@ -32,9 +32,10 @@ nlohmann::ordered_json frame_json(const Picture& picture, const std::string& geo
   json["cx"] = camera.cx;
   json["cy"] = camera.cy;
   json["range_m"] = report.range_m;
+  const bool promised = !removed && report.bound_px > 0;  // methods without a proof promise none
   json["bound_px"] =
-      removed ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(report.bound_px);
-  if (!removed) {
+      promised ? nlohmann::ordered_json(report.bound_px) : nlohmann::ordered_json(nullptr);
+  if (promised) {
     json["geometry_px"] = report.budget.geometry_px;
     json["proven_px"] = report.budget.smallest_px();
   }

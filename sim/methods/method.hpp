@@ -1,0 +1,69 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/frame/frame_pipeline.hpp"
+#include "sim/output/outcome.hpp"
+
+namespace ridgeline::sim {
+
+/// The terrain a method may prepare itself from: the finest level of the terrain window.
+struct MethodTerrain {
+  TerrainView view;
+  /// Posts of level 0, row-major, toroidal: lattice post (column, row) stands at (column mod
+  /// columns, row mod rows). m over the ellipsoid; below shader void_threshold: unknown.
+  std::span<const float> posts;
+  double lowest_m = 0, highest_m = 0;  ///< of known posts
+  double range_m = 0;
+};
+
+/// What a method says of the frame it drew last and of itself.
+struct MethodFacts {
+  double bound_px = 0;         ///< promised; 0: none
+  double ray_cast_share = 0;   ///< pixels answered by a ray / all pixels
+  double steps_per_pixel = 0;  ///< of rays or planes over all pixels; 0: not counted
+  std::size_t gpu_bytes = 0;   ///< GL storage of the method's own, posts not counted
+  std::size_t heap_bytes = 0;  ///< heap of the method's own
+};
+
+/// One published way to draw terrain, drawing the range picture of a frame into the renderer's own
+/// target from the renderer's own posts, on the same curved Earth. Positions on the ground go
+/// through the frame's ground map (shaders/terrain.glsl), so that what differs is the method.
+/// A context must be current whenever a member is called.
+class Method {
+ public:
+  virtual ~Method() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// Grid sizes, thresholds and what else was chosen, in one line.
+  [[nodiscard]] virtual std::string params() const = 0;
+  /// Builds programs, and from the posts what the method needs (pyramids, meshes). Called at boot
+  /// and whenever the terrain window has moved or changed. Its time is the method's build_ms.
+  virtual Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) = 0;
+  /// Draws Renderer::names().range: R32UI, distance along the ray as float bits; 1e30 sky, negative
+  /// unknown; every pixel is written. Row 0 of the target is the top of the picture.
+  virtual void draw(const RangeScene& scene) = 0;
+  /// Of the last frame. May wait for the GPU; not called in the timed part of a frame.
+  [[nodiscard]] virtual MethodFacts facts() = 0;
+};
+
+/// `name`, or `name:setting=value,setting=value`; each method's file says which settings it has.
+struct MethodSpec {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+/// Outcome: the message says which word is wrong.
+Outcome parse_method(std::string_view text, MethodSpec& spec);
+
+/// Makes a method; null with a message in `problem` for an unknown name or setting.
+std::unique_ptr<Method> make_method(const MethodSpec& spec, std::string& problem);
+
+/// Names that make_method knows, in the order of the tables.
+std::vector<std::string_view> method_names();
+
+}  // namespace ridgeline::sim
