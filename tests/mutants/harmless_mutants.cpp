@@ -23,6 +23,19 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "reads the turn: `possible`, `turn_rad` and `stays_complete` each ask for grip > 0, and the "
        "smallest of several grips is then no more than 0 as before. The limit keeps the bound from "
        "growing without end; it is no part of the proof."},
+      {{"ray_without_swell", "shaders/ray_cast.frag",
+        "q.h.z -= a * aa * z.y * (tolerance.y * z.y * z.y + tolerance.w * z.x * z.x);", "",
+        "the ellipsoid does not swell away from its circle", "long_view"},
+       "The swell grows with the cube of the distance and is largest at 45 degrees: 0.332 m at 200 "
+       "km, an angle of 1.66e-6 rad, less anywhere nearer. With it the rows of section 4 sum to "
+       "4.66e-6 + 0.75e-6 S, which is 4.72e-6 sqrt(1 + S S) at most (test "
+       "HarmlessReasons.swell_is_less_than_1_7e_6_rad)."},
+      {{"sweep_without_swell", "shaders/sweep.comp",
+        "(abs(tolerance.y) + abs(tolerance.w)) * u * u * u * 1.2;", "0.0;",
+        "the grid does not allow for the swell", "long_view"},
+       "A node is passed only if it stays under the ray but for the swell: what a pixel then "
+       "misses "
+       "it meets by less than 1.66e-6 rad. The rest as for ray_without_swell."},
   };
   return all;
 }

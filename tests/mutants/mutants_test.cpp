@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <set>
 #include <sstream>
 
+#include "config/limits.hpp"
+#include "core/geo/ground_map.hpp"
 #include "shaders/count_comp.hpp"
 #include "shaders/ray_cast_frag.hpp"
 #include "shaders/sweep_comp.hpp"
@@ -126,6 +129,22 @@ INSTANTIATE_TEST_SUITE_P(Frame, Harmless,
                          testing::ValuesIn(range_of(mutants().size() - harmless_mutants().size(),
                                                     harmless_mutants().size())),
                          name_of);
+
+/// What harmless_mutants.cpp says of the swell. Cubic in the range, so the longest counts.
+TEST(HarmlessReasons, swell_is_less_than_1_7e_6_rad) {
+  double largest_m = 0;
+  for (double latitude_deg = -80; latitude_deg <= 80; latitude_deg += 0.5) {
+    const auto local = local_frame({latitude_deg, 0, 0});
+    ASSERT_TRUE(local);
+    const auto map = ground_map(local.value(), limits::max_range_m);
+    if (!map) continue;  // too near a pole for this chart
+    for (const double swell_m : map.value().swell_m) {
+      largest_m = std::max(largest_m, std::abs(swell_m));
+    }
+  }
+  EXPECT_LT(largest_m, 1.67e-6 * limits::max_range_m);
+  EXPECT_GT(largest_m, 1.6e-6 * limits::max_range_m);
+}
 
 }  // namespace
 }  // namespace ridgeline::test
