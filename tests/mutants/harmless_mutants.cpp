@@ -7,7 +7,7 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
   static const std::vector<HarmlessMutant> all = {
       {{"cell_without_bend", "shaders/ray_cast.frag",
         "float bend = 0.5 * r.along * r.along * r.inverse_radius;", "float bend = 0.0;",
-        "no curvature inside a cell", "facets"},
+        "no curvature inside a cell", "saddles"},
        "A hit counts only within x = A / 2 + sqrt(A t) of the point t where the ray was computed, "
        "A "
        "= 2e-6 / k, k >= 1 / R. The term is at most x x / 2R <= k x x / 2 = 1e-6 (t + sqrt(A t) + "

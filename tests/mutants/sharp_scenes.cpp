@@ -26,17 +26,17 @@ void add_arithmetic_scenes(std::vector<DesignedScene>& all) {
                   {{46.0131, 9.0272, 900}, {90, -4, 200}},
                   {{46.0131, 9.0272, 3000}, {0, -8, 300}}}});
   const DesignedLand saddles =
-      coarse("saddles", {68, 70, 8, 10}, [](double latitude_deg, double longitude_deg) {
-        const auto odd = std::llround(latitude_deg * 120) + std::llround(longitude_deg * 60);
+      coarse("saddles", {82, 84, 8, 10}, [](double latitude_deg, double longitude_deg) {
+        const auto odd = std::llround(latitude_deg * 120) + std::llround(longitude_deg * 20);
         return odd % 2 == 0 ? 100.0 : 350.0;
       });
   all.push_back({"saddles",
-                 "the nearest cells, where parallels bend most",
+                 "near cells, where parallels bend most",
                  saddles,
                  options_of({.image = strip, .range_km = 10, .error_px = least_strip_px}),
-                 {{{69 + 0.1 / 120, 9 + 0.1 / 60, 400}, {90, -11, 40}},
-                  {{69 + 0.1 / 120, 9 + 0.1 / 60, 400}, {0, -9, 35}},
-                  {{69 + 0.9 / 120, 9 + 0.1 / 60, 400}, {90, -11, 140}}}});
+                 {{{83 + 0.1 / 120, 9 + 0.1 / 20, 400}, {90, -8, 40}},
+                  {{83 + 0.1 / 120, 9 + 0.1 / 20, 400}, {0, -4, 45}},
+                  {{83 + 0.9 / 120, 9 + 0.1 / 20, 400}, {90, -6, 140}}}});
   const DesignedLand flat = coarse("flat", {44, 48, 6, 13}, sea_m);
   all.push_back(
       {"long_view",
@@ -119,24 +119,31 @@ void add_cell_scenes(std::vector<DesignedScene>& all) {
 }
 
 void add_scale_scenes(std::vector<DesignedScene>& all) {
-  // What rounds a height is the largest part of the bound here, and nearly met: 25.30029 m over a
-  // whole number above 8192 m is as far from any float as can be. The profile ends 45 degrees
-  // down.
-  constexpr double ground_m = 8925.30029;
-  const DesignedLand plain{
-      "corner_plain", [](const std::string& folder) {
-        write_coarse_cells(folder, alps, [](double, double) { return 8900.0; });
-        write_geoid(folder + "/geoid.gtx", {40, 52, 0, 20}, ground_m - 8900, 0);
+  // What rounds a height is the largest part of the bound here, and half of it is met: 25.30029 m
+  // over a whole number above 8192 m is as far from any float as can be. The crest stands 28 m from
+  // an eye of its own height, at the end of a profile that looks up; the ground falls away on both
+  // sides, so that no cell is near enough to be drawn about the eye.
+  constexpr double crest_m = 8925.30029;
+  const DesignedLand crest{
+      "rounded_crest", [](const std::string& folder) {
+        const auto height_m = [](double /*latitude_deg*/, double longitude_deg) {
+          const auto away = std::abs(std::llround((longitude_deg - 8) * 3600) - 1800);
+          return 8900 - 15.0 * static_cast<double>(std::min(away, 60LL));
+        };
+        if (!sim::write_tile_with(folder, 60, 8, 3601, height_m).ok()) std::abort();
+        write_geoid(folder + "/geoid.gtx", {55, 65, 0, 20}, crest_m - 8900, 0);
       }};
   sim::SceneOptions options =
-      options_of({.image = {4096, 16, 120}, .range_km = 5, .error_px = 0.03});
+      options_of({.image = {2048, 96, 120}, .range_km = 5, .error_px = 0.016});
   options.geoid = "geoid.gtx";
-  all.push_back({"low_corner",
-                 "rounded ground at the edge of 120 degrees",
-                 plain,
+  all.push_back({"crest_corner",
+                 "a rounded crest at the edge of 120 degrees",
+                 crest,
                  options,
-                 {{{46.013, 9.027, ground_m + 1.2}, {90, 15, 30}},
-                  {{46.013, 9.027, ground_m + 1.3}, {-90, 16, 130}}}});
+                 {{{60.5, 8.5 - 1.85 / 3600, crest_m + 0.02}, {88, 59, 90}},
+                  {{60.5, 8.5 - 1.85 / 3600, crest_m + 0.05}, {-88, 58.5, 90}},
+                  {{60.5, 8.5 + 1.85 / 3600, crest_m}, {88.5, 59, 270}}},
+                 14'000});
 }
 
 void add_slant_scenes(std::vector<DesignedScene>& all) {
