@@ -158,9 +158,9 @@ CandumpLine VectorAscParser::fd_line(std::string_view rest, std::int64_t time_ns
   next_word(rest);  // duration
   next_word(rest);  // bits on the bus
   const std::optional<std::uint32_t> flags = hex_number(next_word(rest));
-  line.frame.fd = !flags || (*flags & fd_flag) != 0;
+  // Some writers leave the flags 0: then the line itself says CAN FD.
+  line.frame.fd = !flags || *flags == 0 || (*flags & fd_flag) != 0 || *length > 8;
   line.frame.remote = flags && (*flags & remote_flag) != 0;
-  if (!line.frame.fd && *length > 8) return malformed_line("classic frame has more than 8 bytes");
   if (line.frame.remote) line.frame.length = static_cast<std::uint8_t>(*code < 8 ? *code : 8);
   return line;
 }

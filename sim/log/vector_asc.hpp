@@ -16,10 +16,10 @@ namespace ridgeline {
 ///   timestamps absolute|relative` says how numbers and times are written, relative ones counting
 ///   from the timed line before. Then `T CH ID[x] Rx|Tx d LENGTH BYTES..`, `T CH ID[x] Rx|Tx r
 ///   [LENGTH]`, `T CH ErrorFrame ..`, and `T CANFD CH Rx|Tx ID[x] [NAME] BRS ESI CODE LENGTH
-///   BYTES.. DURATION BITS FLAGS ..`, whose flags say whether the frame was FD or classic. What
-///   follows a frame's data is not judged. Channel n is interface can(n-1). Lines of `//`, the
-///   header, the trigger block and timed events without a frame (Start of measurement, Status,
-///   Statistic, J1939TP, log and trigger events) are comments;
+///   BYTES.. DURATION BITS FLAGS ..`, whose flags, unless 0, say whether the frame was FD or
+///   classic. What follows a frame's data is not judged. Channel n is interface can(n-1). Lines of
+///   `//`, the header, the trigger block and timed events without a frame (Start of measurement,
+///   Status, Statistic, J1939TP, log and trigger events) are comments;
 ///   `// ridgeline: ..` is a label. Everything else is malformed.
 /// Source: facts of python-can's reader and can-utils' asc2log; deviations in docs/icd.md.
 class VectorAscParser {

@@ -104,7 +104,7 @@ TEST(VectorAsc, frames_of_a_can_fd_channel_say_by_their_flags_what_they_are) {
   EXPECT_EQ(remote.frame.length, 5);
   std::string text = "30.5 CANFD 4 Rx 4EE 0 1 f 64";
   for (int byte = 0; byte < 64; ++byte) text += " A1";
-  EXPECT_EQ(parser.line(text + " 1331984 11 0 46").kind, Kind::malformed) << "64 bytes, not FD";
+  EXPECT_TRUE(parser.line(text + " 1331984 11 0 46").frame.fd) << "flags left 0";
   const CandumpLine full = parser.line(text + " 1331984 11 1000 46");
   ASSERT_EQ(full.kind, Kind::frame);
   EXPECT_EQ(full.frame.length, 64);
