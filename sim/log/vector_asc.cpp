@@ -195,6 +195,7 @@ CandumpLine VectorAscParser::header_line(std::string_view text) {
     const std::optional<std::int64_t> start_ns = asc_date_ns(text);
     if (!start_ns) return malformed_line("date is not one");
     start_ns_ = *start_ns;
+    elapsed_ns_ = 0;
     return line;
   }
   if (equal_ignoring_case(first, "base")) {

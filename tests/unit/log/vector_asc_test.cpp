@@ -180,6 +180,16 @@ TEST(VectorAsc, relative_times_add_up_over_every_timed_line) {
   EXPECT_EQ(parser.line("0.25 1 100 Rx d 0").frame.time_ns, 2 * second);
 }
 
+TEST(VectorAsc, relative_times_begin_anew_at_a_dated_trigger_block) {
+  VectorAscParser parser;
+  EXPECT_EQ(parser.line("base hex timestamps relative").kind, Kind::comment);
+  EXPECT_EQ(parser.line("5.0 1 100 Rx d 0").frame.time_ns, 5 * second);
+  EXPECT_EQ(parser.line("Begin Triggerblock Sam Sep 30 15:06:13.191 2017").kind, Kind::comment);
+  EXPECT_EQ(parser.line("1.0 1 100 Rx d 0").frame.time_ns, start + second);
+  EXPECT_EQ(parser.line("Begin Triggerblock").kind, Kind::comment);
+  EXPECT_EQ(parser.line("1.0 1 100 Rx d 0").frame.time_ns, start + 2 * second);
+}
+
 TEST(VectorAsc, the_date_of_the_trigger_block_wins) {
   VectorAscParser parser = hex_parser();
   EXPECT_EQ(parser.line("Begin TriggerBlock Sat Sep 30 10:06:13.191 PM 2017").kind, Kind::comment);
