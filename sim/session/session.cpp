@@ -43,6 +43,10 @@ bool same_posts(const PostGrid& edit, const PostGrid& tile) {
          std::abs(column - std::round(column)) < same_post;
 }
 
+void draw_with_method(void* method, const RangeScene& scene) {
+  static_cast<Method*>(method)->draw(scene);
+}
+
 }  // namespace
 
 Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first) {
@@ -71,6 +75,11 @@ Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first
   if (Outcome opened = open_edits(); !opened.ok()) return opened;
   if (Outcome opened = open_renderer(); !opened.ok()) return opened;
   open_terrain(far_floor);
+  if (options.method.name.empty() || is_own_method(options.method)) return {};
+  std::string problem;
+  auto method = make_method(options.method, problem);
+  if (method == nullptr) return {Fault::file_malformed, problem};
+  use(&keep(std::move(method)));
   return {};
 }
 
@@ -192,19 +201,30 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   const FrameTables tables{planes_, slopes_, text_};
   double start_ms = 0;
   surface_->make_current();
+  picture.problem = prepare(input);
+  if (!picture.problem.ok()) {
+    picture.report.availability.mode = Mode::removed;
+    return picture;
+  }
+  FrameSettings settings = options_.settings;
+  if (method_ != nullptr) settings.instead = {draw_with_method, method_};
   {
     const HeapSection no_heap;  // the frame path of the module; what follows is the desktop's
     const GlSection no_new_objects;
     apply_edits(static_cast<double>(input.time_ns) * 1e-9);
     settle_if_due(input);
     start_ms = now_ms();
-    picture.report = draw_frame(options_.settings, input, *terrain_, worker_->refused_count(),
-                                tables, *renderer_);
+    picture.report =
+        draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
   picture.take = worker_->last_take();
+  if (method_ != nullptr && picture.report.availability.mode != Mode::removed) {
+    picture.method = method_->facts();
+    picture.counts.ray_cast_share = picture.method.ray_cast_share;
+  }
   picture.wanted_px = options_.settings.error_px;
   picture.wanted_range_m = options_.settings.range_m;
   if (!want_pixels) return picture;
