@@ -3,6 +3,7 @@
 #include "config/limits.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
+#include "sim/methods/pgm.hpp"
 #include "sim/methods/setting_reader.hpp"
 
 namespace ridgeline::sim {
@@ -18,6 +19,7 @@ struct Entry {
 constexpr Entry entries[] = {
     {"raycast", nullptr},
     {"mesh", make_mesh},
+    {"pgm", make_pgm},
     {"ridgeline", nullptr},
 };
 
