@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/clipmap.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/pgm.hpp"
@@ -17,10 +18,8 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
-    {"raycast", nullptr},
-    {"mesh", make_mesh},
-    {"pgm", make_pgm},
-    {"ridgeline", nullptr},
+    {"raycast", nullptr},      {"mesh", make_mesh},    {"pgm", make_pgm},
+    {"clipmap", make_clipmap}, {"ridgeline", nullptr},
 };
 
 const Entry* find(std::string_view name) {
