@@ -14,7 +14,6 @@ namespace ridgeline::sim {
 namespace {
 
 constexpr int least_side = 16, most_side = 2048;
-constexpr int local_posts = 120;         ///< to every side, for the local base plane
 constexpr double least_depth_m = 10.0;   ///< of the base plane under the eye
 constexpr double clamped_range = 1.004;  ///< no vertex stands beyond it; past the last row's rays
 constexpr int band = 63;                 ///< quads across a band of the index buffer
@@ -22,7 +21,6 @@ constexpr int vertex_slots = 64;         ///< a row's vertex numbers, modulo 256
 
 struct PgmSettings {
   int columns = 512, rows = 256;
-  std::string base = "local", fetch = "bilinear";
 };
 
 /// Vertex numbers a row. Drivers keep the last vertices in a small table by their number; with 64
@@ -51,11 +49,10 @@ std::vector<std::uint32_t> grid_indices(int columns, int rows) {
 
 class Pgm final : public Method {
  public:
-  explicit Pgm(PgmSettings settings) : settings_(std::move(settings)) {}
+  explicit Pgm(const PgmSettings& settings) : settings_(settings) {}
   [[nodiscard]] std::string_view name() const override { return "pgm"; }
   [[nodiscard]] std::string params() const override {
-    return "grid " + std::to_string(settings_.columns) + "x" + std::to_string(settings_.rows) +
-           ", base " + settings_.base + ", " + settings_.fetch;
+    return "grid " + std::to_string(settings_.columns) + "x" + std::to_string(settings_.rows);
   }
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
@@ -75,11 +72,12 @@ class Pgm final : public Method {
   RasterTarget target_;
   PostPyramid pyramid_;
   CoarseGround ground_;
-  double lowest_m_ = 0;
+  double lowest_m_ = 0, highest_m_ = 0;
 };
 
 Outcome Pgm::build(const MethodTerrain& terrain, const RenderSizes& sizes) {
   lowest_m_ = terrain.lowest_m;
+  highest_m_ = terrain.highest_m;
   ground_.build(terrain);
   Outcome made = pyramid_.build(terrain.view, PostPyramid::Filter::box);
   if (made.ok()) made = target_.make(sizes);
@@ -103,15 +101,9 @@ Outcome Pgm::make_objects() {
 }
 
 BasePlane Pgm::base_plane(const RangeScene& scene) const {
-  const double eye_m = scene.report.local.eye.height_m;
-  const double sea_m = std::min(0.0, lowest_m_);
-  BasePlane base{sea_m, ground_.below_eye_m(scene.view, lowest_m_), lowest_m_,
-                 scene.report.range_m};
-  if (settings_.base == "local") {
-    base.height_m = std::min(ground_.near_eye_m(scene.view, local_posts, lowest_m_), base.ground_m);
-  }
-  base.height_m = std::min(base.height_m, eye_m - least_depth_m);
-  return base;
+  const double most_m = scene.report.local.eye.height_m - least_depth_m;
+  return {std::min({0.0, lowest_m_, most_m}), ground_.below_eye_m(scene.view, lowest_m_), lowest_m_,
+          highest_m_, scene.report.range_m};
 }
 
 void Pgm::draw(const RangeScene& scene) {
@@ -130,7 +122,7 @@ void Pgm::draw(const RangeScene& scene) {
     put(2, sampling.down);
     glUniform2f(3, static_cast<float>(sampling.depth_m),
                 static_cast<float>(clamped_range * scene.report.range_m));
-    glUniform2i(4, row_stride(settings_.columns), settings_.fetch == "nearest" ? 1 : 0);
+    glUniform1i(4, row_stride(settings_.columns));
     pyramid_.bind();
     glBindVertexArray(vertices_.name());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_count()), GL_UNSIGNED_INT, nullptr);
@@ -152,11 +144,9 @@ std::unique_ptr<Method> make_pgm(const MethodSpec& spec, std::string& problem) {
   PgmSettings settings;
   SettingReader reader(spec);
   reader.grid("grid", settings.columns, settings.rows, least_side, most_side);
-  reader.word("base", settings.base, {"local", "sea"});
-  reader.word("fetch", settings.fetch, {"bilinear", "nearest"});
   problem = reader.problem();
   if (!problem.empty()) return nullptr;
-  return std::make_unique<Pgm>(std::move(settings));
+  return std::make_unique<Pgm>(settings);
 }
 
 }  // namespace ridgeline::sim

@@ -16,15 +16,12 @@ namespace ridgeline::sim {
 /// level by the fraction of the level; one draw call over a fixed index buffer.
 ///
 /// Settings: `grid=512x256` vertices (columns x rows, 16..2048 each; the paper's own are 150x600 to
-/// 400x1600), `base=local|sea`, `fetch=bilinear|nearest`.
+/// 400x1600).
 ///
 /// Departures:
-/// - The base plane is the ellipsoid, by the frame's ground map: where a ray meets a plane at
-/// ground
-///   distance g the vertex stands at ground distance g on the curved Earth. Its height: `sea` is
-///   the paper's, 0 m (or the lowest post where that is below); `local` is the mean height within
-///   120 posts of the eye, not over the ground under the eye. The paper's plane leaves the
-///   foreground empty when the eye is low over high land.
+/// - The base plane is the sea-level ellipsoid (at the lowest post where that is below it), by the
+///   frame's ground map: where a ray meets a plane at ground distance g the vertex stands at ground
+///   distance g on the curved Earth.
 /// - The grid covers, of the sampling camera's image, the rectangle that ground in the picture can
 ///   need (sim/methods/sampling_camera.hpp), not the whole image: denser above, and the foreground
 ///   below the picture's edge is there. An auxiliary camera has no roll.
@@ -32,8 +29,9 @@ namespace ridgeline::sim {
 /// posts
 ///   a side); it is built whole, on the GPU, when the window moves: the paper updates it in L and F
 ///   shapes during the flight. Of several window levels the finest that holds the nodes is read.
-/// - Heights of a level are interpolated bilinearly by our own arithmetic; `nearest` is the paper's
-///   one fetch a level.
+/// - Heights of a level are interpolated bilinearly by our own arithmetic, eight fetches a vertex;
+///   the paper has two. With the nearest node alone the foreground is all steps: 5 px of mean error
+///   in the place of 0.04 over a valley of the Sierra Nevada.
 /// - No colour map: the product's shading draws all methods alike.
 /// - A node with an unknown post is unknown, so is a vertex between nodes of which one is, and a
 ///   triangle with such a vertex; they stand at the highest floor among them.

@@ -4,7 +4,7 @@ layout(location = 0) uniform highp vec3 corner;  // ray of vertex (0, 0), ENU
 layout(location = 1) uniform highp vec3 across;  // change from column to column
 layout(location = 2) uniform highp vec3 down;    // from row to row
 layout(location = 3) uniform highp vec2 base;    // x: depth of the plane under the eye; y: largest g
-layout(location = 4) uniform highp ivec2 stride; // x: vertex numbers a row; y: 1 to take the nearest node
+layout(location = 4) uniform highp int stride;   // vertex numbers a row
 out float unknown;
 
 // Where the ray of a vertex meets the base plane; m east and north of the foot of the eye.
@@ -36,22 +36,17 @@ vec2 average_height(vec2 posts, int size) {
   ivec2 eye_node = window.xy >> size, r_low = (window.xy + level_rect[level].xy) >> size;
   ivec2 r_high = (window.xy + level_rect[level].zw) >> size;
   vec2 at = (posts + vec2(into_node(size)) + 0.5) / float(1 << size) - 0.5;
-  vec2 whole = stride.y == 1 ? floor(at + 0.5) : floor(at);
-  vec2 f = stride.y == 1 ? vec2(0.0) : at - whole;
+  vec2 whole = floor(at), f = at - whole;
   ivec2 sw = clamp(ivec2(whole) + eye_node, r_low, r_high) - eye_node;
   ivec2 ne = clamp(ivec2(whole) + 1 + eye_node, r_low, r_high) - eye_node;
   vec4 weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-  vec4 stored = vec4(node_stored(sw, size, level));
-  if (stride.y == 0) {
-    stored.y = node_stored(ivec2(ne.x, sw.y), size, level);
-    stored.z = node_stored(ivec2(sw.x, ne.y), size, level);
-    stored.w = node_stored(ne, size, level);
-  }
-  return mean_height(stored, weight);
+  return mean_height(vec4(node_stored(sw, size, level), node_stored(ivec2(ne.x, sw.y), size, level),
+                          node_stored(ivec2(sw.x, ne.y), size, level), node_stored(ne, size, level)),
+                     weight);
 }
 
 void main() {
-  vec2 vertex = vec2(gl_VertexID % stride.x, gl_VertexID / stride.x);
+  vec2 vertex = vec2(gl_VertexID % stride, gl_VertexID / stride);
   vec2 en = base_point(vertex);
   vec2 posts = posts_of_ground(en);
   float size = log2(max(farthest_posts(vertex, en), 1.0));

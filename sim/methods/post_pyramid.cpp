@@ -10,10 +10,9 @@
 namespace ridgeline::sim {
 namespace {
 
-constexpr int pyramid_unit = 8;    ///< as in post_pyramid.glsl
-constexpr int square_posts = 4;    ///< a side of a square of CoarseGround
-constexpr int group_side = 8;      ///< as in post_pyramid.comp
-constexpr int square_stride = 16;  ///< posts between squares that near_eye_m() looks at
+constexpr int pyramid_unit = 8;  ///< as in post_pyramid.glsl
+constexpr int square_posts = 4;  ///< a side of a square of CoarseGround
+constexpr int group_side = 8;    ///< as in post_pyramid.comp
 
 GLuint groups(int nodes) {
   return static_cast<GLuint>((nodes + group_side - 1) / group_side);
@@ -99,32 +98,17 @@ void CoarseGround::build(const MethodTerrain& terrain) {
   }
 }
 
-float CoarseGround::square(std::int32_t column, std::int32_t row) const {
-  const int c = wrapped(column, columns_ * square_posts) / square_posts;
-  const int r = wrapped(row, rows_ * square_posts) / square_posts;
-  return squares_[static_cast<std::size_t>(r) * columns_ + c];
-}
-
 double CoarseGround::below_eye_m(const TerrainView& view, double otherwise_m) const {
-  return near_eye_m(view, 0, otherwise_m);
-}
-
-double CoarseGround::near_eye_m(const TerrainView& view, int posts, double otherwise_m) const {
   const PostRect& rect = view.drawable[0];
   const auto column = static_cast<std::int32_t>(std::floor(view.eye_column));
   const auto row = static_cast<std::int32_t>(std::floor(view.eye_row));
-  double sum = 0;
-  int known = 0;
-  for (std::int32_t r = row - posts; r <= row + posts; r += square_stride) {
-    for (std::int32_t c = column - posts; c <= column + posts; c += square_stride) {
-      if (c < rect.west || c >= rect.east || r < rect.south || r >= rect.north) continue;
-      const auto height_m = static_cast<double>(square(c, r));
-      if (std::isnan(height_m)) continue;
-      sum += height_m;
-      ++known;
-    }
+  if (column < rect.west || column >= rect.east || row < rect.south || row >= rect.north) {
+    return otherwise_m;
   }
-  return known > 0 ? sum / known : otherwise_m;
+  const int c = wrapped(column, columns_ * square_posts) / square_posts;
+  const int r = wrapped(row, rows_ * square_posts) / square_posts;
+  const float square_m = squares_[static_cast<std::size_t>(r) * columns_ + c];
+  return std::isnan(square_m) ? otherwise_m : static_cast<double>(square_m);
 }
 
 }  // namespace ridgeline::sim

@@ -42,14 +42,9 @@ class CoarseGround {
   void build(const MethodTerrain& terrain);
   /// The mean of the square that holds the eye; `otherwise` where it is unknown. m, ellipsoid.
   [[nodiscard]] double below_eye_m(const TerrainView& view, double otherwise_m) const;
-  /// The mean over the squares of `posts` to every side of the eye; `otherwise` where all are
-  /// unknown. m, ellipsoid.
-  [[nodiscard]] double near_eye_m(const TerrainView& view, int posts, double otherwise_m) const;
   [[nodiscard]] std::size_t heap_bytes() const { return squares_.capacity() * sizeof(float); }
 
  private:
-  [[nodiscard]] float square(std::int32_t column, std::int32_t row) const;
-
   std::vector<float> squares_;  ///< NaN where unknown
   int columns_ = 0, rows_ = 0;
 };

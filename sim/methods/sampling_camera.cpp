@@ -37,7 +37,9 @@ Slopes base_slopes(double slope, double eye_height_m, const BasePlane& base, dou
   Slopes result;
   result.seen = slope < steepest_rise;
   result.high = std::min(far_slope, slope < 0 ? slope * depth_m / above_lowest_m : far_slope);
-  result.low = std::min(result.high, -(depth_m / clearance_m) * (steepest_rise - slope));
+  double nearest_m = clearance_m / std::max(steepest_rise - slope, 1e-9);
+  if (slope < 0) nearest_m = std::max(nearest_m, (eye_height_m - base.highest_m) / -slope);
+  result.low = std::min(result.high, -depth_m / nearest_m);
   return result;
 }
 

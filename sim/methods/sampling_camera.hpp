@@ -7,9 +7,9 @@ namespace ridgeline::sim {
 /// ellipsoid.
 struct BasePlane {
   double height_m = 0;
-  double ground_m = 0;  ///< of the ground under the eye
-  double lowest_m = 0;  ///< of the terrain
-  double range_m = 0;   ///< how far the grid has to reach
+  double ground_m = 0;                 ///< of the ground under the eye
+  double lowest_m = 0, highest_m = 0;  ///< of the terrain
+  double range_m = 0;                  ///< how far the grid has to reach
 };
 
 /// The camera through which a persistent grid is laid on the base plane: rays, in ENU, of grid
@@ -30,7 +30,7 @@ struct SamplingCamera {
 /// down that its upper edge meets the plane at the range. Of its image the grid covers the part
 /// that ground in the picture can need: a terrain point stands on the base point of its azimuth and
 /// ground distance, so from the rays of the picture's border follow the base points of all terrain
-/// between `lowest_m` and ground that rises from under the eye at most at `steepest_rise`.
+/// between `lowest_m` and `highest_m`, and of ground that rises from under the eye at most at 0.6.
 /// Domain: columns, rows >= 2; eye over the ground.
 SamplingCamera sampling_camera(const Camera& camera, double eye_height_m, const BasePlane& base,
                                int columns, int rows);
