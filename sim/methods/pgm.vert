@@ -15,17 +15,15 @@ vec2 base_point(vec2 vertex) {
   return g > base.y ? en * (base.y / g) : en;
 }
 
-// Posts to the farthest of the eight neighbours.
+// Posts to the farthest neighbour. The eight form the border of a quadrilateral on the plane, of which a
+// corner is farthest from any point.
 float farthest_posts(vec2 vertex, vec2 en) {
   vec2 per_m = vec2(longitude[0].x, latitude[0].x) * tolerance.z;
-  float most = 0.0;
-  for (float y = -1.0; y <= 1.0; y += 1.0) {
-    for (float x = -1.0; x <= 1.0; x += 1.0) {
-      vec2 way = (base_point(vertex + vec2(x, y)) - en) * per_m;
-      most = max(most, dot(way, way));
-    }
-  }
-  return sqrt(most);
+  vec2 a = (base_point(vertex + vec2(-1.0, -1.0)) - en) * per_m;
+  vec2 b = (base_point(vertex + vec2(1.0, -1.0)) - en) * per_m;
+  vec2 c = (base_point(vertex + vec2(-1.0, 1.0)) - en) * per_m;
+  vec2 d = (base_point(vertex + vec2(1.0, 1.0)) - en) * per_m;
+  return sqrt(max(max(dot(a, a), dot(b, b)), max(dot(c, c), dot(d, d))));
 }
 
 // The average of nodes of 2^size posts at any place between their middles.
