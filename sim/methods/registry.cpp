@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/embree.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/setting_reader.hpp"
@@ -18,6 +19,7 @@ struct Entry {
 constexpr Entry entries[] = {
     {"raycast", nullptr},
     {"mesh", make_mesh},
+    {"embree", make_embree},
     {"ridgeline", nullptr},
 };
 
