@@ -32,8 +32,8 @@ std::vector<SpeedErrorSeries> plot_series(const BenchResult& result) {
     auto one = std::find_if(series.begin(), series.end(),
                             [&](const SpeedErrorSeries& s) { return s.name == row.method; });
     if (one == series.end()) one = series.insert(series.end(), {row.method, {}});
-    one->points.push_back(
-        {label_of(row.spec), row.median_ms(), row.error.worst_px, row.error.mean_px()});
+    one->points.push_back({label_of(row.spec), row.median_ms(), row.error.worst_px,
+                           row.error.mean_px(), row.bound_px.value_or(0.0)});
   }
   return series;
 }

@@ -56,14 +56,16 @@ std::string short_number(double value) {
   return text;
 }
 
-/// Calls use(value, whether it is labelled) for 1, 2 and 5 times every power of ten of the axis.
+/// Calls use(value, whether it is labelled) for 1, 2 and 5 times every power of ten of the axis,
+/// and for more where it is short.
 template <typename Use>
 void over_ticks(const LogAxis& axis, const Use& use) {
   constexpr double few_decades = 2.5;
   for (int power = -6; power <= 6; ++power) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
+    for (const double digit : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0}) {
       const double value = digit * std::pow(10.0, power);
-      if (value < axis.low || value > axis.high) continue;
+      const bool coarse = digit == 1.0 || digit == 2.0 || digit == 5.0;
+      if (value < axis.low || value > axis.high || (!coarse && axis.decades() > 1.0)) continue;
       use(value, digit == 1.0 || axis.decades() < few_decades);
     }
   }
@@ -104,9 +106,30 @@ void draw_front(SvgPage& page, const LogAxis& x, const LogAxis& y,
   }
 }
 
+/// One series in one panel: its points on the page, its line, its marks.
+using Way = std::vector<std::pair<double, double>>;
+
+void draw_series(SvgPage& page, const SpeedErrorSeries& series, std::size_t index, const Way& way) {
+  const std::string colour = colour_of(series.name, index);
+  const char* width = series.name == "ridgeline" ? "2.6" : "1.4";
+  page.polyline(way, "stroke=\"" + colour + "\" stroke-width=\"" + width + "\"");
+  for (const auto& [x, y] : way) page.marker(x, y, static_cast<int>(index), colour, marker_px);
+}
+
+void draw_labels(SvgPage& page, const SpeedErrorSeries& series, std::size_t index, const Way& way,
+                 const Box& frame) {
+  const std::string style =
+      "font-size=\"9.5\" stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\" fill=\"" +
+      colour_of(series.name, index) + "\"";
+  for (std::size_t p = 0; p < way.size(); ++p) {
+    const std::string& words = series.points[p].label;
+    if (!words.empty()) page.label(way[p].first, way[p].second, words, frame, style);
+  }
+}
+
 /// One panel; `error` picks which error of a point.
 template <typename Error>
-void draw_panel(SvgPage& page, double left, const std::string& title,
+void draw_panel(SvgPage& page, double left, const std::string& title, bool with_bounds,
                 const std::vector<SpeedErrorSeries>& series, const Error& error) {
   std::vector<double> times, errors;
   std::vector<PlotPoint> points;
@@ -115,40 +138,32 @@ void draw_panel(SvgPage& page, double left, const std::string& title,
       points.push_back({point.ms, std::max(error(point), plot_floor_px)});
       times.push_back(points.back().ms);
       errors.push_back(points.back().error_px);
+      if (with_bounds && point.bound_px > 0) errors.push_back(point.bound_px);
     }
   }
   const LogAxis x = axis_over(times, left, left + panel_width);
   const LogAxis y = axis_over(errors, panel_top + panel_height, panel_top);
   draw_axes(page, x, y, title);
   draw_front(page, x, y, points);
-  const Box frame{x.from + 2, y.to + 2, x.to - 2, y.from - 2};
-  for (const PlotPoint& point : points) {
-    const double px = x.at(point.ms), py = y.at(point.error_px);
-    page.take({px - 7, py - 6, px + 7, py + 6});
-  }
-  std::size_t k = 0;
-  for (std::size_t s = 0; s < series.size(); ++s) {
-    const std::string colour = colour_of(series[s].name, s);
-    std::vector<std::pair<double, double>> way;
-    for (std::size_t p = 0; p < series[s].points.size(); ++p) {
-      way.emplace_back(x.at(points[k + p].ms), y.at(points[k + p].error_px));
-    }
-    const char* width = series[s].name == "ridgeline" ? "2.6" : "1.4";
-    page.polyline(way, "stroke=\"" + colour + "\" stroke-width=\"" + width + "\"");
-    for (std::size_t p = 0; p < way.size(); ++p) {
-      page.marker(way[p].first, way[p].second, static_cast<int>(s), colour, marker_px);
-    }
-    k += way.size();
-  }
-  k = 0;
-  for (std::size_t s = 0; s < series.size(); ++s) {
-    const std::string style = "font-size=\"9.5\" fill=\"" + colour_of(series[s].name, s) + "\"";
+  std::vector<Way> ways;
+  for (std::size_t s = 0, k = 0; s < series.size(); ++s) {
+    ways.emplace_back();
     for (const SpeedError& point : series[s].points) {
       const double px = x.at(points[k].ms), py = y.at(points[k].error_px);
-      if (!point.label.empty()) page.label(px, py, point.label, frame, style);
       ++k;
+      ways.back().emplace_back(px, py);
+      page.take({px - 7, py - 6, px + 7, py + 6});
+      if (!with_bounds || !(point.bound_px > 0)) continue;
+      const std::string colour = colour_of(series[s].name, s);
+      const double bound_y = y.at(std::max(point.bound_px, plot_floor_px));
+      page.line(px, py, px, bound_y, "stroke=\"" + colour + "\" stroke-dasharray=\"1 3\"");
+      page.ring(px, bound_y, marker_px, "stroke=\"" + colour + "\" stroke-width=\"1.4\"");
+      page.take({px - 6, bound_y - 6, px + 6, bound_y + 6});
     }
   }
+  const Box frame{x.from + 2, y.to + 2, x.to - 2, y.from - 2};
+  for (std::size_t s = 0; s < series.size(); ++s) draw_series(page, series[s], s, ways[s]);
+  for (std::size_t s = 0; s < series.size(); ++s) draw_labels(page, series[s], s, ways[s], frame);
 }
 
 void draw_legend(SvgPage& page, double left, const std::vector<SpeedErrorSeries>& series) {
@@ -159,7 +174,10 @@ void draw_legend(SvgPage& page, double left, const std::vector<SpeedErrorSeries>
     page.marker(left + 13, y, static_cast<int>(s), colour, marker_px);
     page.text(left + 34, y + 4, series[s].name, "start", "font-size=\"12\"");
   }
-  y += 8;
+  y += 10;
+  page.ring(left + 13, y, marker_px, "stroke=\"#606060\" stroke-width=\"1.4\"");
+  page.text(left + 34, y + 4, "promised bound", "start", "font-size=\"12\"");
+  y += 24;
   page.ring(left + 13, y, marker_px + 4, ring_style);
   page.text(left + 34, y + 4, "no other is both", "start", "font-size=\"12\"");
   page.text(left + 34, y + 19, "faster and less wrong", "start", "font-size=\"12\"");
@@ -190,9 +208,9 @@ std::string speed_error_svg(const std::string& title, const std::vector<SpeedErr
   SvgPage page(page_width, page_height);
   page.text(60, 32, title, "start", "font-size=\"15\" font-weight=\"bold\"");
   constexpr double first = 60, second = first + panel_width + 65;
-  draw_panel(page, first, "largest error found, px", series,
+  draw_panel(page, first, "largest error found, px", true, series,
              [](const SpeedError& point) { return point.worst_px; });
-  draw_panel(page, second, "mean error, px", series,
+  draw_panel(page, second, "mean error, px", false, series,
              [](const SpeedError& point) { return point.mean_px; });
   draw_legend(page, second + panel_width + 22, series);
   page.text(60, page_height - 22,

@@ -8,6 +8,7 @@ namespace ridgeline::sim {
 struct SpeedError {
   std::string label;  ///< of the setting; empty: not labelled
   double ms = 0, worst_px = 0, mean_px = 0;
+  double bound_px = 0;  ///< promised; 0: nothing
 };
 
 /// One method, its settings in the order in which a line joins them.
@@ -20,8 +21,8 @@ struct SpeedErrorSeries {
 inline constexpr double plot_floor_px = 1e-3;
 
 /// A picture of speed against error, both logarithmic, as SVG: the worst error in one panel, the
-/// mean in the other. Points that no other point beats in both are ringed and joined by steps.
-/// Points without a positive time are left out.
+/// mean in the other. A promised bound is a hollow mark in the first. Points that no other point
+/// beats in both are ringed and joined by steps. Points without a positive time are left out.
 [[nodiscard]] std::string speed_error_svg(const std::string& title,
                                           const std::vector<SpeedErrorSeries>& series);
 
