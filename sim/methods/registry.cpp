@@ -4,6 +4,7 @@
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/setting_reader.hpp"
+#include "sim/methods/warp.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -18,6 +19,7 @@ struct Entry {
 constexpr Entry entries[] = {
     {"raycast", nullptr},
     {"mesh", make_mesh},
+    {"warp", make_warp},
     {"ridgeline", nullptr},
 };
 
