@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/hybrid.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/setting_reader.hpp"
@@ -20,6 +21,7 @@ constexpr Entry entries[] = {
     {"raycast", nullptr},
     {"mesh", make_mesh},
     {"warp", make_warp},
+    {"hybrid", make_hybrid},
     {"ridgeline", nullptr},
 };
 
