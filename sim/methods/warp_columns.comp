@@ -5,9 +5,13 @@ layout(binding = 6) uniform highp sampler2D importance_texture;
 layout(binding = 7) uniform highp sampler2D rows_texture;
 layout(r32f, binding = 0) writeonly uniform highp image2D columns_image;  // v; vertices x vertices
 
+// Linear between the middles of texels: neighbouring lines must not differ by a whole texel.
 float asked(int line, int row) {
-  float x = texelFetch(rows_texture, ivec2(line, row), 0).r * float(warp_sizes.x);
-  return texelFetch(importance_texture, ivec2(min(int(x), warp_sizes.x - 1), row), 0).y;
+  float x = texelFetch(rows_texture, ivec2(line, row), 0).r * float(warp_sizes.x) - 0.5;
+  int west = clamp(int(floor(x)), 0, warp_sizes.x - 2);
+  return mix(texelFetch(importance_texture, ivec2(west, row), 0).y,
+             texelFetch(importance_texture, ivec2(west + 1, row), 0).y,
+             clamp(x - float(west), 0.0, 1.0));
 }
 
 void main() {

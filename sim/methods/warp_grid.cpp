@@ -1,5 +1,6 @@
 #include "sim/methods/warp_grid.hpp"
 
+#include "shaders/warp_blend_comp.hpp"
 #include "shaders/warp_columns_comp.hpp"
 #include "shaders/warp_importance_comp.hpp"
 #include "shaders/warp_mesh_comp.hpp"
@@ -43,6 +44,7 @@ Outcome WarpGrid::make_programs() {
   };
   for (const Entry& entry :
        {Entry{"warp_importance", shader::warp_importance_comp, &importance_pass_},
+        Entry{"warp_blend", shader::warp_blend_comp, &blend_pass_},
         Entry{"warp_rows", shader::warp_rows_comp, &rows_pass_},
         Entry{"warp_columns", shader::warp_columns_comp, &columns_pass_},
         Entry{"warp_mesh", shader::warp_mesh_comp, &mesh_pass_}}) {
@@ -75,6 +77,7 @@ Outcome WarpGrid::make(const MethodTerrain& terrain) {
     const int map = settings_.map, grid = settings_.grid;
     Outcome made = make_programs();
     if (made.ok()) made = make_image(GL_RGBA32F, map, map, importance_);
+    if (made.ok()) made = make_image(GL_RGBA32F, map, map, blended_);
     if (made.ok()) made = make_image(GL_R32F, grid, map, rows_);
     if (made.ok()) made = make_image(GL_R32F, grid, grid, columns_);
     if (made.ok()) made = make_image(GL_RGBA32F, grid, grid, positions_);
@@ -100,9 +103,16 @@ void WarpGrid::warp(const RangeScene& scene) {
   glDispatchCompute(maps, maps, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 
-  glUseProgram(rows_pass_.name());
+  glUseProgram(blend_pass_.name());
   set_uniforms(scene);
   bind(first_unit, importance_.name());
+  write_to(blended_, GL_RGBA32F);
+  glDispatchCompute(maps, maps, 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+
+  glUseProgram(rows_pass_.name());
+  set_uniforms(scene);
+  bind(first_unit, blended_.name());
   write_to(rows_, GL_R32F);
   glDispatchCompute(maps, 1, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -129,7 +139,7 @@ std::size_t WarpGrid::gpu_bytes() const {
   const auto grid = static_cast<std::size_t>(settings_.grid);
   const auto blocks =
       static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_);
-  return 16 * map * map + 4 * grid * map + 20 * grid * grid + 32 * blocks;
+  return 32 * map * map + 4 * grid * map + 20 * grid * grid + 32 * blocks;
 }
 
 }  // namespace ridgeline::sim

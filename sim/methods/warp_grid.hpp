@@ -12,8 +12,8 @@ struct WarpSettings {
   bool detail = false;
 };
 
-/// The warp itself: importance map, row pass, column pass, geometry image; four compute passes.
-/// A context must be current whenever a member is called.
+/// The warp itself: importance map, its blend, row pass, column pass, geometry image; five compute
+/// passes. A context must be current whenever a member is called.
 class WarpGrid {
  public:
   explicit WarpGrid(const WarpSettings& settings) : settings_(settings) {}
@@ -25,7 +25,7 @@ class WarpGrid {
   void set_uniforms(const RangeScene& scene) const;
 
   /// RGBA32F, map x map: vertices a unit of u and of v asked for; whether it is in sight.
-  [[nodiscard]] GLuint importance() const { return importance_.name(); }
+  [[nodiscard]] GLuint importance() const { return blended_.name(); }
   /// RGBA32F, grid x grid: xyz position, m from the eye; w octave of detail carried.
   [[nodiscard]] GLuint positions() const { return positions_.name(); }
   /// RGBA32F, toroidal: mean squares of the slopes of blocks.
@@ -38,8 +38,8 @@ class WarpGrid {
   Outcome make_bounds(const SurfaceBounds& bounds);
 
   WarpSettings settings_;
-  Program importance_pass_, rows_pass_, columns_pass_, mesh_pass_;
-  Texture heights_, slopes_, importance_, rows_, columns_, positions_;
+  Program importance_pass_, blend_pass_, rows_pass_, columns_pass_, mesh_pass_;
+  Texture heights_, slopes_, importance_, blended_, rows_, columns_, positions_;
   int block_columns_ = 0, block_rows_ = 0;
 };
 
