@@ -19,7 +19,7 @@ namespace ridgeline::sim {
 /// Each vertex knows the octave of detail its density can carry; finer octaves are left to shading.
 /// Departures, and choices where we know the paper only in outline:
 /// - Its domain is a fixed terrain; ours is the square round the eye, in the frame's ground map.
-///   Places beyond the display range move onto its rim.
+///   Vertices past 1.05 of the display range move onto a rim there; nothing beyond the range shows.
 /// - Importance is two densities, along rows and along columns: the projected length of a unit step
 ///   over the wanted edge, root mean square over the slopes of a 16 x 16 block of posts (minimum,
 ///   maximum, mean and squares of the slopes are made when the terrain window changes). A block is

@@ -69,7 +69,7 @@ void main() {
   vec2 en = (vec2(texel) + 0.5) * side - range;
   float unseen = unseen_share * float(warp_sizes.y);
   vec2 asked = vec2(unseen);
-  float inside = min(1.0, range / max(length(en), 1.0));
+  float inside = min(1.0, 1.05 * range / max(length(en), 1.0));
   vec2 posts = posts_of_ground(en * inside);
   Surface s = surface_at(posts);
   vec3 centre = ground_position(en * inside, 0.5 * (s.low + s.high));
@@ -78,7 +78,7 @@ void main() {
   vec3 sight = centre / max(distance, 1.0);
   bool near = distance < radius + side;  // every direction is in such a ball
   // One texel wider than the ball: the warp blends neighbouring rows.
-  bool seen = length(en) < range + side && in_sight(centre, radius + side);
+  bool seen = length(en) < range + 2.0 * side && in_sight(centre, radius + side);
   if (seen && (near || may_face(s, sight))) {
     // Mean square of the part across the sight of a step (1, 0, slope) and of a step (0, 1, slope).
     vec2 across = 1.0 + s.squares.xy - sight.xy * sight.xy - 2.0 * sight.xy * sight.z * s.slope -

@@ -16,10 +16,10 @@ vec2 place_of(ivec2 vertex) {
   return vec2(mix(south, north, row - float(low)), v);
 }
 
-// Its ground point; what is outside the range moves onto its rim.
+// Its ground point; what is far outside the range, where the ground map ends, moves onto a rim there.
 vec2 ground_of(ivec2 vertex) {
   vec2 en = (place_of(vertex) * 2.0 - 1.0) * ray_origin.w;
-  return en * min(1.0, 1.003 * ray_origin.w / max(length(en), 1.0));
+  return en * min(1.0, 1.05 * ray_origin.w / max(length(en), 1.0));
 }
 
 void main() {
