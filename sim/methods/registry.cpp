@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/loffler.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/setting_reader.hpp"
@@ -16,6 +17,7 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
+    {"loffler", make_loffler},
     {"raycast", nullptr},
     {"mesh", make_mesh},
     {"ridgeline", nullptr},
