@@ -321,6 +321,7 @@ LofflerSettings loffler_settings(const MethodSpec& spec, std::string& problem) {
   reader.grid("grid", settings.columns, settings.rows, 16, 4096);
   flag("warp", settings.warp);
   flag("rays", settings.rays);
+  settings.lift = settings.rays;
   flag("lift", settings.lift);
   reader.number("gamma", settings.gamma_px, 1e-3, 64.0);
   reader.word("from", from, {"surface", "eye"});

@@ -15,7 +15,8 @@ struct LofflerSettings {
   int columns = 1024, rows = 512;  ///< vertices of the full grid
   bool warp = true;                ///< off: the uniform projected grid
   bool rays = true;                ///< off: the grid's surface alone
-  bool lift = true;                ///< vertices above the threshold move to the highest post
+  bool lift = true;                ///< vertices above the threshold move to the highest post;
+                                   ///< where a spec is silent, with rays only
   double gamma_px = 1;             ///< threshold, and what the paper claims the picture keeps
   bool from_eye = false;           ///< rays begin at the eye instead of at the grid's surface
   bool flat = false;               ///< vertices on a flat Earth, as in the paper

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/embree.hpp"
 #include "sim/methods/loffler.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
@@ -20,6 +21,7 @@ constexpr Entry entries[] = {
     {"loffler", make_loffler},
     {"raycast", nullptr},
     {"mesh", make_mesh},
+    {"embree", make_embree},
     {"ridgeline", nullptr},
 };
 
