@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/embree.hpp"
 #include "sim/methods/hybrid.hpp"
+#include "sim/methods/loffler.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/setting_reader.hpp"
@@ -18,10 +20,8 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
-    {"raycast", nullptr},
-    {"mesh", make_mesh},
-    {"warp", make_warp},
-    {"hybrid", make_hybrid},
+    {"loffler", make_loffler}, {"warp", make_warp}, {"hybrid", make_hybrid},
+    {"raycast", nullptr},      {"mesh", make_mesh}, {"embree", make_embree},
     {"ridgeline", nullptr},
 };
 
