@@ -49,9 +49,9 @@ class Warp final : public Method {
 
 std::string Warp::params() const {
   const WarpSettings& s = grid_.settings();
-  char text[160];
-  std::snprintf(text, sizeof text, "%d x %d vertices, map %d x %d, edge %.2g px, %.2g a post%s",
-                s.grid, s.grid, s.map, s.map, s.edge, s.posts,
+  char text[192];
+  std::snprintf(text, sizeof text, "%d x %d vertices, map %d x %d, edge %.2g px, %.2g a post%s%s",
+                s.grid, s.grid, s.map, s.map, s.edge, s.posts, s.turn ? "" : ", north up",
                 s.detail ? ", procedural detail: not the data" : "");
   return text;
 }
@@ -102,15 +102,17 @@ MethodFacts Warp::facts() {
 
 std::unique_ptr<Method> make_warp(const MethodSpec& spec, std::string& problem) {
   WarpSettings settings;
-  int detail = 0;
+  int detail = 0, turn = 1;
   SettingReader reader(spec);
   reader.whole("grid", settings.grid, 8, 2048);
   reader.whole("map", settings.map, 8, 1024);
   reader.number("edge", settings.edge, 0.1, 64.0);
   reader.number("posts", settings.posts, 0.25, 16.0);
+  reader.whole("turn", turn, 0, 1);
   reader.whole("detail", detail, 0, 1);
   problem = reader.problem();
   if (!problem.empty()) return nullptr;
+  settings.turn = turn == 1;
   settings.detail = detail == 1;
   return std::make_unique<Warp>(settings);
 }

@@ -8,6 +8,7 @@ namespace ridgeline::sim {
 /// `warp`: a regular grid, warped to where the view needs its vertices, drawn as one mesh.
 /// Settings: `grid`, vertices a side (512); `map`, texels of the importance map a side (256);
 /// `edge`, wanted length of an edge in the picture (2 px); `posts`, most vertices a post (2);
+/// `turn`, 1: the square is turned into the view, 0: it stays north up (1);
 /// `detail`, 1: adds procedural relief below the posts (0). With detail the picture is no longer
 /// that of the data. No bound.
 ///
@@ -20,6 +21,8 @@ namespace ridgeline::sim {
 /// Departures, and choices where we know the paper only in outline:
 /// - Its domain is a fixed terrain; ours is the square round the eye, in the frame's ground map.
 ///   Vertices past 1.05 of the display range move onto a rim there; nothing beyond the range shows.
+/// - `turn`: with v along the view, rows come out across it and both passes reach what is asked;
+///   north up, as a fixed domain is, they do only for views along an axis.
 /// - Importance is two densities, along rows and along columns: the projected length of a unit step
 ///   over the wanted edge, root mean square over the slopes of a 16 x 16 block of posts (minimum,
 ///   maximum, mean and squares of the slopes are made when the terrain window changes). A block is

@@ -1,4 +1,4 @@
-// Second pass: along each line of the first pass, the same for the importance northwards that lies
+// Second pass: along each line of the first pass, the same for the importance along v that lies
 // under the line. One invocation a line.
 layout(local_size_x = 8) in;
 layout(binding = 6) uniform highp sampler2D importance_texture;

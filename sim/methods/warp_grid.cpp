@@ -1,5 +1,8 @@
 #include "sim/methods/warp_grid.hpp"
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 #include "shaders/warp_blend_comp.hpp"
 #include "shaders/warp_columns_comp.hpp"
 #include "shaders/warp_importance_comp.hpp"
@@ -10,7 +13,7 @@ namespace ridgeline::sim {
 namespace {
 
 // As in the shaders.
-constexpr int sizes_location = 0, asks_location = 1;
+constexpr int sizes_location = 0, asks_location = 1, ahead_location = 2;
 constexpr int first_unit = 6, second_unit = 7, detail_unit = 8;
 constexpr int local_size = 8;
 constexpr double posts_with_detail = 64;  ///< vertices a post: the finest octave
@@ -91,6 +94,18 @@ void WarpGrid::set_uniforms(const RangeScene& scene) const {
   glUniform4i(sizes_location, settings_.map, settings_.grid, 0, 0);
   glUniform4f(asks_location, static_cast<float>(settings_.edge), static_cast<float>(most),
               settings_.detail ? 1.0f : 0.0f, scene.report.window.void_posts > 0 ? 1.0f : 0.0f);
+  const glm::dvec2 way = ahead(scene);
+  glUniform2f(ahead_location, static_cast<float>(way.x), static_cast<float>(way.y));
+}
+
+glm::dvec2 WarpGrid::ahead(const RangeScene& scene) const {
+  constexpr double level_enough = 0.02;  // of the line of sight
+  if (!settings_.turn) return {0, 1};
+  const glm::dmat3& axes = scene.report.camera.enu_from_camera.columns;
+  glm::dvec2 way(axes[2]);
+  // Straight up or down the picture's upper side is ahead, or behind.
+  if (glm::length(way) < level_enough) way = glm::dvec2(axes[1]) * (axes[2].z > 0 ? 1.0 : -1.0);
+  return way / glm::length(way);
 }
 
 void WarpGrid::warp(const RangeScene& scene) {

@@ -9,6 +9,7 @@ struct WarpSettings {
   int map = 256;     ///< texels of the importance map a side
   double edge = 2;   ///< wanted length of an edge, px
   double posts = 2;  ///< most vertices a post without detail
+  bool turn = true;  ///< the square is turned into the view
   bool detail = false;
 };
 
@@ -23,6 +24,9 @@ class WarpGrid {
   void warp(const RangeScene& scene);
   /// Sets the uniforms of warp.glsl in the program in use.
   void set_uniforms(const RangeScene& scene) const;
+
+  /// Direction of v in a frame, east and north; of unit length.
+  [[nodiscard]] glm::dvec2 ahead(const RangeScene& scene) const;
 
   /// RGBA32F, map x map: vertices a unit of u and of v asked for; whether it is in sight.
   [[nodiscard]] GLuint importance() const { return blended_.name(); }

@@ -1,5 +1,5 @@
 // Importance map: for every texel of the square, how many vertices a unit of length the surface in it
-// deserves eastwards and northwards.
+// deserves along u and along v.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 6) uniform highp sampler2D heights_texture;  // of blocks: lowest, highest, mean slope
 layout(binding = 7) uniform highp sampler2D slopes_texture;   // mean xx, yy, xy of slopes; their spread
@@ -61,12 +61,24 @@ bool may_face(Surface s, vec3 sight) {
   return dot(s.slope, sight.xy) - sight.z + s.spread * length(sight.xy) > 0.0;
 }
 
+// Root mean square of the part across the sight of a step over the ground that is 1 m along `way` and
+// rises with the slope; of all of the step where every direction may be the sight.
+float across_of(Surface s, vec2 way, vec3 sight, bool near) {
+  float slope = dot(s.slope, way);
+  float square = way.x * way.x * s.squares.x + way.y * way.y * s.squares.y +
+                 2.0 * way.x * way.y * s.squares.z;
+  if (near) return sqrt(1.0 + square);
+  float ahead = dot(sight.xy, way);
+  return sqrt(max(1.0 + square - ahead * ahead - 2.0 * ahead * sight.z * slope -
+                  sight.z * sight.z * square, 0.0));
+}
+
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(texel, warp_sizes.xx))) return;
   float range = ray_origin.w;
   float side = 2.0 * range / float(warp_sizes.x);  // m
-  vec2 en = (vec2(texel) + 0.5) * side - range;
+  vec2 en = from_square((vec2(texel) + 0.5) * side - range);
   float unseen = unseen_share * float(warp_sizes.y);
   vec2 asked = vec2(unseen);
   float inside = min(1.0, 1.05 * range / max(length(en), 1.0));
@@ -80,14 +92,12 @@ void main() {
   // One texel wider than the ball: the warp blends neighbouring rows.
   bool seen = length(en) < range + 2.0 * side && in_sight(centre, radius + side);
   if (seen && (near || may_face(s, sight))) {
-    // Mean square of the part across the sight of a step (1, 0, slope) and of a step (0, 1, slope).
-    vec2 across = 1.0 + s.squares.xy - sight.xy * sight.xy - 2.0 * sight.xy * sight.z * s.slope -
-                  sight.z * sight.z * s.squares.xy;
-    across = near ? 1.0 + s.squares.xy : max(across, 0.0);
+    vec2 along_u = from_square(vec2(1.0, 0.0)), along_v = warp_ahead;
+    vec2 across = vec2(across_of(s, along_u, sight, near), across_of(s, along_v, sight, near));
     float px_per_m = 1.0 / (length(ray_dx.xyz) * max(distance - radius, 0.5 * side));
-    vec2 density = px_per_m * sqrt(across) / warp_asks.x;  // vertices a metre
-    vec2 per_m = abs(vec2(longitude[0].x, latitude[0].x)) * tolerance.z;
-    density = min(density, warp_asks.y * per_m);
+    vec2 density = px_per_m * across / warp_asks.x;  // vertices a metre
+    vec2 per_m = vec2(longitude[0].x, latitude[0].x) * tolerance.z;
+    density = min(density, warp_asks.y * vec2(length(along_u * per_m), length(along_v * per_m)));
     asked = max(asked, density * 2.0 * range);
   }
   imageStore(importance_image, texel, vec4(asked, seen ? 1.0 : 0.0, 0.0));

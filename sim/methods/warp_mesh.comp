@@ -18,7 +18,7 @@ vec2 place_of(ivec2 vertex) {
 
 // Its ground point; what is far outside the range, where the ground map ends, moves onto a rim there.
 vec2 ground_of(ivec2 vertex) {
-  vec2 en = (place_of(vertex) * 2.0 - 1.0) * ray_origin.w;
+  vec2 en = from_square((place_of(vertex) * 2.0 - 1.0) * ray_origin.w);
   return en * min(1.0, 1.05 * ray_origin.w / max(length(en), 1.0));
 }
 
