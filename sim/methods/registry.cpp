@@ -3,10 +3,13 @@
 #include "config/limits.hpp"
 #include "sim/methods/clipmap.hpp"
 #include "sim/methods/embree.hpp"
+#include "sim/methods/hybrid.hpp"
+#include "sim/methods/loffler.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/methods/pgm.hpp"
 #include "sim/methods/setting_reader.hpp"
+#include "sim/methods/warp.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -19,8 +22,9 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
-    {"pgm", make_pgm},   {"clipmap", make_clipmap}, {"raycast", nullptr},
-    {"mesh", make_mesh}, {"embree", make_embree},   {"ridgeline", nullptr},
+    {"pgm", make_pgm},       {"loffler", make_loffler}, {"warp", make_warp},
+    {"hybrid", make_hybrid}, {"clipmap", make_clipmap}, {"raycast", nullptr},
+    {"mesh", make_mesh},     {"embree", make_embree},   {"ridgeline", nullptr},
 };
 
 const Entry* find(std::string_view name) {
@@ -70,15 +74,6 @@ std::unique_ptr<Method> make_method(const MethodSpec& spec, std::string& problem
     return nullptr;
   }
   return entry->make(spec, problem);
-}
-
-std::string method_problem(const MethodSpec& spec) {
-  FrameSettings settings;
-  if (is_own_method(spec)) return apply_own_method(spec, settings);
-  std::string problem;
-  const bool made = make_method(spec, problem) != nullptr;
-  const bool absent = problem.find("absent") != std::string::npos;
-  return made || absent ? std::string{} : problem;
 }
 
 std::vector<std::string_view> method_names() {
