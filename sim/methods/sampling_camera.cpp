@@ -11,7 +11,7 @@ constexpr double least_clearance_m = 5.0;  ///< of the eye over the ground, as f
 constexpr double least_axial = 0.17;       ///< cosine of the largest angle off the sampling axis
 constexpr double margin = 0.01;            ///< of the covered part, to each side
 constexpr double past_range = 1.002;       ///< the last row stands a little beyond it
-constexpr int border_steps = 32;           ///< rays looked at on each side of the picture
+constexpr int ray_steps = 24;              ///< rays looked at along each side of the picture
 
 struct Window {
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
@@ -52,16 +52,16 @@ void take_in(Window& window, const glm::dmat3& axes, const glm::dvec3& ray) {
   window.bottom = std::max(window.bottom, seen.y / seen.z);
 }
 
-/// Calls use(ray) for rays of the picture's border.
+/// Calls use(ray) for rays all over the picture, its edges included.
 template <typename Use>
-void over_border(const Camera& camera, const Use& use) {
-  for (int k = 0; k <= border_steps; ++k) {
-    const double u = camera.width_px * static_cast<double>(k) / border_steps;
-    const double v = camera.height_px * static_cast<double>(k) / border_steps;
-    use(camera.ray(u, 0).xyz);
-    use(camera.ray(u, camera.height_px).xyz);
-    use(camera.ray(0, v).xyz);
-    use(camera.ray(camera.width_px, v).xyz);
+void over_picture(const Camera& camera, const Use& use) {
+  for (int row = 0; row <= ray_steps; ++row) {
+    for (int column = 0; column <= ray_steps; ++column) {
+      use(camera
+              .ray(camera.width_px * static_cast<double>(column) / ray_steps,
+                   camera.height_px * static_cast<double>(row) / ray_steps)
+              .xyz);
+    }
   }
 }
 
@@ -69,7 +69,7 @@ Window covered(const Camera& camera, const glm::dmat3& axes, double eye_height_m
                const BasePlane& base, double depth_m) {
   constexpr double plumb = 1e-9;
   Window window;
-  over_border(camera, [&](const glm::dvec3& ray) {
+  over_picture(camera, [&](const glm::dvec3& ray) {
     const double along = std::max(std::hypot(ray.x, ray.y), plumb);
     const Slopes slopes = base_slopes(ray.z / along, eye_height_m, base, depth_m);
     if (!slopes.seen) return;
@@ -87,7 +87,7 @@ SamplingCamera sampling_camera(const Camera& camera, double eye_height_m, const 
   result.depth_m = eye_height_m - base.height_m;
   const double far_slope = -result.depth_m / (past_range * base.range_m);
   bool meets = true;
-  over_border(camera, [&](const glm::dvec3& ray) {
+  over_picture(camera, [&](const glm::dvec3& ray) {
     meets = meets && ray.z <= far_slope * std::hypot(ray.x, ray.y);
   });
   glm::dmat3 axes = camera.enu_from_camera.columns;

@@ -29,7 +29,7 @@ struct SamplingCamera {
 /// range; else an auxiliary one with the same heading and field of view, no roll, that looks so far
 /// down that its upper edge meets the plane at the range. Of its image the grid covers the part
 /// that ground in the picture can need: a terrain point stands on the base point of its azimuth and
-/// ground distance, so from the rays of the picture's border follow the base points of all terrain
+/// ground distance, so from rays all over the picture follow the base points of all terrain
 /// between `lowest_m` and `highest_m`, and of ground that rises from under the eye at most at 0.6.
 /// Domain: columns, rows >= 2; eye over the ground.
 SamplingCamera sampling_camera(const Camera& camera, double eye_height_m, const BasePlane& base,
