@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/clipmap_frag.hpp"
 #include "shaders/clipmap_vert.hpp"
-#include "shaders/ground_frag.hpp"
 #include "sim/methods/clipmap_layout.hpp"
 #include "sim/methods/footprint_view.hpp"
 #include "sim/methods/post_pyramid.hpp"
@@ -90,7 +90,7 @@ Outcome Clipmap::make_objects() {
   glEnableVertexAttribArray(0);
   glVertexAttribDivisor(0, 1);
   glBindVertexArray(0);
-  return make_method_program("clipmap", shader::clipmap_vert, shader::ground_frag, program_);
+  return make_method_program("clipmap", shader::clipmap_vert, shader::clipmap_frag, program_);
 }
 
 /// The first level that reaches past the range to every side.

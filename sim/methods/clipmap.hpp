@@ -34,8 +34,9 @@ namespace ridgeline::sim {
 ///   nearest height held.
 /// - The papers enable a level by its whole extent in view; here every level to the coarsest is
 ///   active, less those left out under a high eye.
-/// - A vertex whose filter meets an unknown post is unknown, and a triangle with such a vertex; it
-///   stands at the highest floor.
+/// - A vertex whose filter meets an unknown post is unknown, a quad with such a vertex too (both
+/// its
+///   triangles); they stand at the highest floor.
 std::unique_ptr<Method> make_clipmap(const MethodSpec& spec, std::string& problem);
 
 }  // namespace ridgeline::sim

@@ -3,6 +3,7 @@
 layout(location = 0) in highp ivec4 piece;  // xy: south-west vertex, from the eye's; z: level; w: a row
 layout(location = 0) uniform highp ivec2 levels;  // x: vertices a side; y: the coarsest level
 out float unknown;
+flat out float cell_unknown;  // of the cell north-east of the vertex, whose triangles it ends
 
 // Stored height of a vertex; vertices of size s stand 2^s lattice posts apart and count from the one
 // south-west of the eye. Beyond what the window holds (and beyond the range) the nearest held one.
@@ -48,6 +49,11 @@ void main() {
   vec2 height = stored_height(vertex_stored(vertex, size));
   if (share > 0.0) height = blended(height, coarse_height(vertex, size), share);
   unknown = height.y;
+  // A triangle knows three of its cell's posts: the fourth makes the cell unknown as well.
+  float lowest = min(min(vertex_stored(vertex + ivec2(1, 0), size),
+                         vertex_stored(vertex + ivec2(0, 1), size)),
+                     vertex_stored(vertex + ivec2(1, 1), size));
+  cell_unknown = piece.w != levels.x && lowest < void_threshold ? 1.0 : 0.0;  // not of the perimeter
   vec2 en = ground_of_posts(vec2((vertex << size) - into_node(size)));
   gl_Position = clip_of(ground_position(en, height.x));
 }

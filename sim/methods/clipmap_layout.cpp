@@ -74,7 +74,7 @@ std::vector<std::uint32_t> footprint_indices(Footprint footprint, int n) {
     for (int x = 0; x < quads.x; ++x) {
       const auto a = static_cast<std::uint32_t>(y * (quads.x + 1) + x);
       const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(quads.x) + 1, d = c + 1;
-      indices.insert(indices.end(), {a, b, d, a, d, c});
+      indices.insert(indices.end(), {b, d, a, d, c, a});
     }
   }
   return indices;

@@ -25,6 +25,7 @@ inline constexpr int footprint_count = 8;
 /// Quads of a rectangular footprint; of the perimeter, of the whole level.
 glm::ivec2 footprint_quads(Footprint footprint, int n);
 /// Vertex numbers of its triangles: row-major from the south-west, footprint_quads().x + 1 a row.
+/// Both triangles of a quad end with its south-west vertex.
 std::vector<std::uint32_t> footprint_indices(Footprint footprint, int n);
 
 /// One footprint of a level: its south-west vertex, counted from the level's.

@@ -69,6 +69,8 @@ TEST(ClipmapLayout, triangles_of_a_footprint_cover_its_quads) {
       }
       const glm::dvec2 a = corner[1] - corner[0], b = corner[2] - corner[0];
       EXPECT_EQ(a.x * b.y - a.y * b.x, 1.0);
+      EXPECT_TRUE(corner[2].x <= corner[0].x && corner[2].x <= corner[1].x &&
+                  corner[2].y <= corner[0].y && corner[2].y <= corner[1].y);
       area += 0.5 * (a.x * b.y - a.y * b.x);
     }
     EXPECT_EQ(area, quads.x * quads.y);

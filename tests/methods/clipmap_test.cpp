@@ -35,9 +35,16 @@ TEST(Clipmap, where_one_level_reaches_it_is_the_full_mesh) {
   MethodStand stand(land, image, 8'000, first);
   for (const Pose& pose : poses) {
     stand.use("mesh");
-    const auto mesh = bits_of(stand.draw(pose));
+    const sim::Picture mesh = stand.draw(pose);
     stand.use("clipmap:grid=511");
-    EXPECT_EQ(bits_of(stand.draw(pose)), mesh);
+    const sim::Picture picture = stand.draw(pose);
+    int differ = 0;
+    for (std::size_t i = 0; i < mesh.range_m.size(); ++i) {
+      const float a = mesh.range_m[i], b = picture.range_m[i];
+      differ += a == b || std::abs(a - b) < 1e-6F * a ? 0 : 1;
+    }
+    // Triangles begin at another vertex, so here and there an edge rounds to the other side.
+    EXPECT_LT(differ, image.width_px * image.height_px / 1000);
   }
 }
 
@@ -106,6 +113,24 @@ TEST(Clipmap, no_crack_opens_between_levels) {
       for (const float z : stand.draw(pose).range_m) sky += std::isinf(z) ? 1 : 0;
       EXPECT_EQ(sky, 0) << spec << ' ' << k;
     }
+  }
+}
+
+// A mean over a void post's stored value would be a pit kilometres deep.
+TEST(Clipmap, a_single_void_post_is_unknown_and_no_pit) {
+  const OneTile land(plain_with_specks_m);
+  MethodStand stand(land, image, range_m, first);
+  const Pose pose{{46.42, 8.5, 1500}, {0, -20, 3}};
+  stand.use_ours();
+  const sim::Picture ours = stand.draw(pose);
+  for (const char* spec : {"clipmap", "clipmap:grid=63"}) {
+    stand.use(spec);
+    const sim::Picture picture = stand.draw(pose);
+    EXPECT_EQ(elsewhere(ours, picture), 0);
+    const UnknownCount count = count_unknown(ours, picture);
+    std::printf("[ specks ] %s: %d unknown, %d lost\n", spec, count.unknown, count.lost);
+    EXPECT_GT(count.unknown, 1000);
+    EXPECT_LT(count.lost, count.unknown / 5);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <cstddef>
 
 #include "sim/session/session.hpp"
 
@@ -22,6 +23,23 @@ inline int lost_inside(const sim::Picture& ours, const sim::Picture& other) {
     }
   }
   return lost;
+}
+
+/// A plain at 300 m in which some single posts are void.
+inline double plain_with_specks_m(double latitude_deg, double longitude_deg) {
+  const auto row = std::llround((latitude_deg - 46) * 1200);
+  const auto column = std::llround((longitude_deg - 8) * 1200);
+  return (row * 7 + column * 13) % 61 == 0 ? std::nan("") : 300.0;
+}
+
+/// Pixels that both pictures show as ground, at distances that differ by more than 2 %.
+inline int elsewhere(const sim::Picture& ours, const sim::Picture& other) {
+  int count = 0;
+  for (std::size_t i = 0; i < ours.range_m.size(); ++i) {
+    const float a = ours.range_m[i], b = other.range_m[i];
+    if (std::isfinite(a) && std::isfinite(b) && std::abs(a - b) > 0.02F * a) ++count;
+  }
+  return count;
 }
 
 }  // namespace ridgeline::test

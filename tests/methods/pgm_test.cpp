@@ -83,6 +83,24 @@ TEST(Pgm, unknown_ground_stays_unknown) {
   }
 }
 
+// A mean over a void post's stored value would be a pit kilometres deep.
+TEST(Pgm, a_single_void_post_is_unknown_and_no_pit) {
+  const OneTile land(plain_with_specks_m);
+  MethodStand stand(land, image, range_m, first);
+  const Pose pose{{46.42, 8.5, 1500}, {0, -20, 3}};
+  stand.use_ours();
+  const sim::Picture ours = stand.draw(pose);
+  for (const char* spec : {"pgm", "pgm:grid=64x32"}) {
+    stand.use(spec);
+    const sim::Picture picture = stand.draw(pose);
+    EXPECT_EQ(elsewhere(ours, picture), 0);
+    const UnknownCount count = count_unknown(ours, picture);
+    std::printf("[ specks ] %s: %d unknown, %d lost\n", spec, count.unknown, count.lost);
+    EXPECT_GT(count.unknown, 1000);
+    EXPECT_LT(count.lost, count.unknown / 5);
+  }
+}
+
 TEST(Pgm, every_pixel_is_written_and_two_draws_give_the_same_bits) {
   const RoughTile land;
   MethodStand stand(land, image, range_m, first);
