@@ -19,8 +19,8 @@ namespace ridgeline::sim {
 /// longitude, none is resampled: middle post at that place, steps of 1/695 degree of latitude
 /// (159.95 m) and 1/476 degree of longitude (160.1 m there) times 1024 / (posts - 1). UTM north is
 /// up to 1.2 degrees off true north and a degree of longitude is 1.4 % shorter or longer at the
-/// north and south edge: shapes are true to that, distances to the middle too. Heights count from
-/// the ellipsoid.
+/// north and south edge: the summits named above land within 2 km of their places. Heights count
+/// from the ellipsoid.
 struct PugetMap {
   int posts = 0;  ///< a side
   double latitude_step_deg = 0, longitude_step_deg = 0;
