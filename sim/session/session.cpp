@@ -153,7 +153,8 @@ void Session::open_terrain(double far_floor) {
   worker_->know_edits(core_edits_);
   held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
   finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
-  terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_,
+  finest_rests_.resize(finest_posts_.size());
+  terrain_.emplace(*worker_, lattice_, window_, held_, FinestPosts{finest_posts_, finest_rests_},
                    polar_ ? options_.settings.range_m : 0.0);
 }
 

@@ -133,6 +133,7 @@ class Session {
   std::unique_ptr<BlockWorker> worker_;
   std::vector<HeldBlock> held_;
   std::vector<float> finest_posts_;
+  std::vector<std::int8_t> finest_rests_;
   std::optional<TerrainKeeper> terrain_;
   std::vector<sim::TerrainEdit> edits_;
   std::vector<ridgeline::TerrainEdit> core_edits_;
