@@ -83,6 +83,10 @@ std::unique_ptr<Method> make_method(const MethodSpec& spec, std::string& problem
 /// Result: empty, or which word is wrong; the settings are then as they were.
 [[nodiscard]] std::string apply_own_method(const MethodSpec& spec, FrameSettings& settings);
 
+/// What is wrong with a spec: its name or its settings; empty when a method of this or another
+/// build can be made from it. Needs no context.
+[[nodiscard]] std::string method_problem(const MethodSpec& spec);
+
 /// Every name, in the order of the tables.
 std::vector<std::string_view> method_names();
 

@@ -74,6 +74,15 @@ std::unique_ptr<Method> make_method(const MethodSpec& spec, std::string& problem
   return entry->make(spec, problem);
 }
 
+std::string method_problem(const MethodSpec& spec) {
+  FrameSettings settings;
+  if (is_own_method(spec)) return apply_own_method(spec, settings);
+  std::string problem;
+  const bool made = make_method(spec, problem) != nullptr;
+  const bool absent = problem.find("absent") != std::string::npos;
+  return made || absent ? std::string{} : problem;
+}
+
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
   for (const Entry& entry : entries) names.push_back(entry.name);

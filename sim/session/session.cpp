@@ -44,6 +44,8 @@ bool same_posts(const PostGrid& edit, const PostGrid& tile) {
 }
 
 void draw_with_method(void* method, const RangeScene& scene) {
+  // No grid pass; a method with a ray cast of its own may stamp its start again.
+  scene.renderer.timer().stamp(static_cast<int>(Pass::ray_cast));
   static_cast<Method*>(method)->draw(scene);
 }
 
