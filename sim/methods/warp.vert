@@ -21,4 +21,5 @@ void main() {
   unknown = p.w > 32.0 ? 1.0 : 0.0;
   carried = p.w - 64.0 * unknown;
   gl_Position = clip_of(p.xyz);
+  gl_Position.y *= warp_upward;
 }
