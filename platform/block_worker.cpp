@@ -17,6 +17,7 @@ BlockWorker::BlockWorker(TerrainFolder& folder, const Settings& settings)
     : folder_(folder), settings_(settings) {
   const auto side = static_cast<std::size_t>(region_side(settings.levels - 1));
   posts_.resize(side * side);
+  rests_.resize(static_cast<std::size_t>(region_side(0)) * region_side(0));
   rows_.resize(static_cast<std::size_t>(row_scratch(settings.levels - 1)));
   if (settings.polar) {
     low_.resize(polar_cells(settings.levels - 1));
@@ -100,7 +101,7 @@ void BlockWorker::build_into(const Job& job, TerrainBlock& block) {
   const BlockOrder& order = job.order;
   const TerrainSource source{lattice_in(order.chart, settings_.lattice), folder_.tiles(),
                              edits_.first(static_cast<std::size_t>(order.edits)), settings_.geoid};
-  build_block(source, order.id, settings_.far_floor_m, {posts_, rows_, low_, high_}, block);
+  build_block(source, order.id, settings_.far_floor_m, {posts_, rows_, rests_, low_, high_}, block);
 }
 
 void BlockWorker::run() {
@@ -163,7 +164,8 @@ std::size_t BlockWorker::mapped_bytes() const {
 }
 
 std::size_t BlockWorker::buffer_bytes() const {
-  return sizeof(float) * (posts_.size() + rows_.size() + low_.size() + high_.size()) +
+  return sizeof(float) *
+             (posts_.size() + rows_.size() + rests_.size() + low_.size() + high_.size()) +
          blocks_.size() * sizeof(TerrainBlock) + jobs_.size() * sizeof(Job);
 }
 

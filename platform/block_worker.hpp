@@ -34,7 +34,7 @@ class BlockWorker final : public BlockPort {
   };
 
   /// Starts the thread. `folder` outlives the worker and is used by nobody else meanwhile.
-  /// Cost: allocates all buffers: 22 KiB a block in flight, (68 * 2^(levels - 1))^2 posts, and
+  /// Cost: allocates all buffers: 26 KiB a block in flight, (68 * 2^(levels - 1))^2 posts, and
   ///       twice as many numbers again for polar charts.
   BlockWorker(TerrainFolder& folder, const Settings& settings);
   ~BlockWorker() override;
@@ -81,7 +81,7 @@ class BlockWorker final : public BlockPort {
   TerrainFolder& folder_;
   Settings settings_;
   std::span<const TerrainEdit> edits_;
-  std::vector<float> posts_, rows_, low_, high_;
+  std::vector<float> posts_, rows_, rests_, low_, high_;
   std::vector<Job> jobs_;
   std::vector<TerrainBlock> blocks_;
   TerrainBlock at_once_;

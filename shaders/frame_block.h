@@ -57,6 +57,9 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 level_reach[6];  // x: ground distance up to which its nodes cover a wedge
   vec4 latitude[3];   // ground map in posts, northwards: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // eastwards: 10 11 12 13 | 14 30 31 32 | 50 - - -
+  vec4 near_cells[9]; // cells round a low eye, about it: height over the eye, per column, per row, per both
+  vec4 near_edges;    // of the eye's cell, in posts from the eye: west, east, south, north
+  ivec4 near;         // x: 1 when they are used; y: bit k set where cell k is unknown; zw: unused
   vec4 turn;          // xy: cosine and sine of the angle from the eye's east to the lattice's
 };
 

@@ -4,6 +4,7 @@ layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
 const float proven_sky = 1.5e30;  // no ray was cast: the grid proves the wedge empty
+const int near_step_limit = 1000;
 const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
 
 // Ground distance up to which the wedge round this direction is empty at its slope and above.
@@ -80,6 +81,47 @@ float first_zero(vec3 gap) {
   return disc < 0.0 || down <= 0.0 ? sky : 2.0 * gap.x / down;
 }
 
+// The same from a point that may stand below the surface already: there it hits at once.
+float meeting(vec3 gap) { return gap.x > 0.0 ? first_zero(gap) : 0.0; }
+
+// What a ray shows that hits at t: negative where it hits a floor of unknown ground. Never -0, which
+// is no sign at all: the eye may stand inside such a floor.
+float shown(float t, bool unknown) {
+  return t > ray_origin.w ? sky : (unknown ? -max(t, 1.0e-3) : t);
+}
+
+// The nine cells round a low eye, in posts from the eye: here a rounded height would count
+// (docs/error_bound.md, section 4). What the ray shows, or `sky` where it leaves them, at t.
+float near_hit(Course q, float bend, float ceiling, inout float t) {
+  for (int steps = 0; steps < near_step_limit; ++steps) {
+    float s = t * tolerance.z;
+    float height = s * (q.h.x + s * (q.h.y + s * (q.h.z + s * q.h.w)));
+    float climb = tolerance.z * (q.h.x + s * (2.0 * q.h.y + s * (3.0 * q.h.z)));
+    if (t > ray_origin.w || (height > ceiling && climb >= 0.0)) return sky;
+    vec2 off = s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
+    vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
+    vec2 ahead = off + sign(rate) * (5.0e-7 * abs(off));
+    vec2 low = near_edges.xz, high = near_edges.yw;
+    if (any(lessThan(ahead, low - 1.0)) || any(greaterThanEqual(ahead, high + 1.0))) return sky;
+    ivec2 cell = ivec2(greaterThanEqual(ahead, high)) - ivec2(lessThan(ahead, low));
+    vec2 after = mix(high + vec2(max(cell, 0)), low, lessThan(cell, ivec2(0)));
+    vec2 before = mix(low + vec2(min(cell, 0)), high, greaterThan(cell, ivec2(0)));
+    vec2 edge = mix(before, after, greaterThan(rate, vec2(0.0)));
+    vec2 moving = step(vec2(1.0e-20), abs(rate));
+    vec2 ways = mix(vec2(1.0e20), (edge - off) / mix(vec2(1.0), rate, moving), moving);
+    float exit = max(min(ways.x, ways.y), 0.0);
+    int k = 4 + cell.x + 3 * cell.y;
+    Cell c = Cell(near_cells[k].x, near_cells[k].y, near_cells[k].z, near_cells[k].w,
+                  (near.y >> k & 1) == 1);
+    vec3 gap = gap_along(c, off, rate, height, climb, bend);
+    float straight = 0.5 * heights.y + sqrt(heights.y * t);
+    float hit = meeting(gap);
+    if (hit <= min(exit, straight)) return shown(t + hit, c.unknown);
+    t += straight < exit ? straight : exit + 1.0e-6 + 1.0e-6 * t;
+  }
+  return unresolved;
+}
+
 // Distance of the first known surface or, negative, of the first unknown floor; `sky` if none.
 // `size`: nodes of 2^size cells are looked at first.
 float first_hit(Ray r, float start, int size) {
@@ -90,6 +132,10 @@ float first_hit(Ray r, float start, int size) {
   int top_size = int(heights.z);
   float t = start;
   if (r.up < 0.0) t = max(t, ceiling / r.up);  // over the highest post until here
+  if (near.x != 0) {
+    float value = near_hit(q, bend, ceiling, t);
+    if (value != sky) return value;
+  }
   ivec2 parent = ivec2(-1000000);
   for (int steps = 0; steps < step_limit; ++steps) {
     if (t > range) return sky;
@@ -135,11 +181,10 @@ float first_hit(Ray r, float start, int size) {
     // The track counts as straight only as far as it bends by less than 1e-6 of the distance.
     float straight = 0.5 * heights.y + sqrt(heights.y * t);
     float stretch = min(exit, straight);
-    float hit = gap.x > 0.0 ? first_zero(gap) : 0.0;
+    float hit = meeting(gap);
     if (hit <= stretch) {  // a hit within the nudge is met where the next cell begins
       t += hit;
-      // Never -0, which is no sign at all: the eye may stand inside an unknown floor.
-      return t > range ? sky : (c.unknown ? -max(t, 1.0e-3) : t);
+      return shown(t, c.unknown);
     }
     parent = (window.xy + cell) >> (size + 1);
     t += straight < exit ? straight : leave;

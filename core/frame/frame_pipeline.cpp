@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/frame/level_error.hpp"
 #include "core/frame/picture.hpp"
@@ -9,10 +10,11 @@
 namespace ridgeline {
 namespace {
 
-constexpr int grid_attempts = 8;      ///< to fit the grid into its capacity
-constexpr double coarser = 1.5;       ///< wider spacing for the next attempt
-constexpr double least_share = 2.0;   ///< of the height over the lowest ground: a cut range's least
-constexpr double bound_growth = 1.1;  ///< step by which a bound that cannot be met is raised
+constexpr int grid_attempts = 8;     ///< to fit the grid into its capacity
+constexpr double coarser = 1.5;      ///< wider spacing for the next attempt
+constexpr double least_share = 2.0;  ///< of the height over the lowest ground: a cut range's least
+constexpr double most_of_distance = 8e-5;  ///< by which distances may be off where a ray looks down
+constexpr double bound_growth = 1.1;       ///< step by which a bound that cannot be met is raised
 
 /// The display range of a frame, and what it can promise for it.
 struct Promise {
@@ -20,6 +22,25 @@ struct Promise {
   GroundMap map;
   ErrorBudget budget;
 };
+
+HeightRounding rounding_of(const WindowSummary& window, const Clearance& clearance) {
+  HeightRounding rounding;
+  rounding.largest_m = std::max(std::abs(window.highest_m), std::abs(window.lowest_m));
+  rounding.relief_of_distance = clearance.relief_of_distance;
+  rounding.distance_m = clearance.drawn_m;
+  if (clearance.near_ground) {
+    rounding.near_distance_m = clearance.near_m;
+    rounding.near_steepest = clearance.near_steepest;
+  }
+  return rounding;
+}
+
+/// Sine of the angle by which the steepest ray of the picture looks down; 0 where none does.
+double steepest_look(const Camera& camera) {
+  const double down_rad = -std::asin(std::clamp(camera.enu_from_camera.columns[2].z, -1.0, 1.0)) +
+                          camera.half_diagonal_rad(0.0);
+  return std::sin(std::clamp(down_rad, 0.0, 0.5 * std::numbers::pi));
+}
 
 /// The smallest bound not below the wanted one that this pose and this terrain allow over a range;
 /// where completeness is what does not allow it, the smallest of a few steps.
@@ -29,9 +50,12 @@ Result<Promise> promise_over(const FrameSettings& settings, const FrameReport& r
   const auto map = ground_map(report.local, levels.clear_range_m, terrain.lattice().chart,
                               {report.window.lowest_m, report.window.highest_m});
   if (!map) return map.fault();
-  const HeightRounding rounding{
-      std::max(std::abs(report.window.highest_m), std::abs(report.window.lowest_m)),
-      clearance.relief_m, clearance.distance_m};
+  const HeightRounding rounding = rounding_of(report.window, clearance);
+  // What a height is off by is made up for by a turn, but for what shows along a ray that looks
+  // down: the contract lets that go up to a part in ten thousand.
+  if (rounding.of_distance() * steepest_look(report.camera) > most_of_distance) {
+    return Fault::no_error_bound;
+  }
   Promise promise{levels.clear_range_m, map.value(), {}};
   ErrorBudget& budget = promise.budget;
   budget = error_budget(report.camera, map.value(), levels.angle_px, levels.steepest, rounding);
@@ -160,8 +184,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   if (grid.used) {
     report.nodes = fill_grid_tables(report.camera, map, grid, tables.planes, tables.slopes);
   }
-  blocks =
-      frame_blocks(report.local, report.camera, map, grid, terrain.view(), report.window.highest_m);
+  TerrainView view = terrain.view();
+  if (clearance.near_ground) view.near = terrain.near_ground();
+  blocks = frame_blocks(report.local, report.camera, map, grid, view, report.window.highest_m);
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;

@@ -23,7 +23,20 @@ struct Clearance {
   enum class Kind : std::uint8_t { above, below, undecided };
   Kind kind = Kind::undecided;  ///< undecided: too little terrain has arrived below the eye
   double distance_m = 0;        ///< lower bound on the distance to the known surface, at least 1 mm
-  double relief_m = 0;          ///< largest difference of heights inside one cell near the eye
+  /// What is drawn near the eye, the nine cells round it (NearGround) left out where they are drawn
+  /// about the eye itself: lower bound on its distance, and the largest of its cells' differences
+  /// of heights over their distances.
+  double drawn_m = 0, relief_of_distance = 0;
+  bool near_ground = false;  ///< those nine cells are
+  /// Then, of them: lower bound on the distance, largest difference of heights in one over a post.
+  double near_m = 0, near_steepest = 0;
+};
+
+/// Copy of the finest level in main memory.
+/// Shape: as many as the level has posts; block by block, row-major from the south-west in each.
+struct FinestPosts {
+  std::span<float> heights_m;
+  std::span<std::int8_t> rests;  ///< as TerrainBlock::rests
 };
 
 /// Keeps the terrain window round the eye: orders blocks, takes them when they arrive, puts them
@@ -31,11 +44,12 @@ struct Clearance {
 /// once at boot.
 class TerrainKeeper {
  public:
-  /// Shape: held.size() >= sizes.levels * sizes.blocks(), finest_posts.size() >= sizes.columns() *
-  ///        sizes.rows(): a copy of the finest level, for the ground under the eye.
+  /// Shape: held.size() >= sizes.levels * sizes.blocks(). `finest_posts`: for the ground under the
+  ///        eye.
   /// `polar_range_m`: display range for which a polar chart takes over near a pole; 0: never.
   TerrainKeeper(BlockPort& port, const PostLattice& lattice, const LevelSizes& sizes,
-                std::span<HeldBlock> held, std::span<float> finest_posts, double polar_range_m = 0);
+                std::span<HeldBlock> held, const FinestPosts& finest_posts,
+                double polar_range_m = 0);
 
   /// Moves the window to the eye, takes what has arrived and orders what is missing. Where the
   /// chart changes the window starts afresh.
@@ -49,6 +63,8 @@ class TerrainKeeper {
   /// Display range the window covers round the eye, at most `range_m`; 0 when nothing has arrived.
   [[nodiscard]] double covered_range_m(const GeodeticPosition& eye, double range_m) const;
   [[nodiscard]] Clearance clearance(const GeodeticPosition& eye) const;
+  /// The nine cells round the eye. Domain: the finest level draws them (Clearance::near_ground).
+  [[nodiscard]] NearGround near_ground() const;
   [[nodiscard]] WindowSummary summary() const;
   [[nodiscard]] TerrainView view() const;
   [[nodiscard]] const TerrainLevels& levels() const { return levels_; }
@@ -63,7 +79,10 @@ class TerrainKeeper {
   void take_arrived(Renderer& renderer);
   void put(const TerrainBlock& block, Renderer& renderer);
   void order_missing();
+  [[nodiscard]] std::size_t finest_index(std::int32_t column, std::int32_t row) const;
   [[nodiscard]] float finest_post(std::int32_t column, std::int32_t row) const;
+  [[nodiscard]] double exact_post(std::int32_t column, std::int32_t row) const;
+  [[nodiscard]] NearCell near_cell(std::int32_t column, std::int32_t row) const;
   [[nodiscard]] double height_below_m(double column, double row) const;
   [[nodiscard]] double cell_distance_m(const GeodeticPosition& eye, std::int32_t c, std::int32_t r,
                                        double post_x, double post_y) const;
@@ -74,7 +93,7 @@ class TerrainKeeper {
   PostLattice geographic_, lattice_;
   double polar_range_m_;
   TerrainLevels levels_;
-  std::span<float> finest_posts_;
+  FinestPosts finest_;
   double eye_column_ = 0, eye_row_ = 0;
   PostRect focus_;
   int edits_ = 0;

@@ -11,6 +11,9 @@ constexpr double float_angle_rad = 5.5e-6;
 constexpr double rounding_unit = 0x1p-24;
 /// Of the relief of one cell: 26 u for sums and products, 2e-6 for posts at its edge.
 constexpr double relief_share = 3.6e-6;
+/// Of heights drawn about the eye: half a unit of TerrainBlock::rests; of the slope of a cell, 30 u
+/// for sums and products and 5e-7 for the edge it begins at.
+constexpr double near_rest_m = 0.5 * rest_unit_m, near_slope_share = 2.3e-6;
 constexpr double straight_rad = 1.0e-6;  ///< how far a step within a cell may bend
 constexpr double rad_per_deg = 0.017453292519943295;
 constexpr double slip_posts = 0.1;  ///< how far a step's straight exit may miss the true track
@@ -69,6 +72,22 @@ double straight_m(const GroundMap& map, const LocalFrame& frame) {
           std::max(map.inverse_meridian_radius, map.inverse_prime_vertical_radius));
 }
 
+/// The cells round a low eye, over the eye. Edges are rounded as what they are, distances from it.
+void put_near_ground(const TerrainView& view, double eye_height_m, shader::FrameBlock& b) {
+  const NearGround& near = view.near;
+  const double x = view.eye_column - std::floor(view.eye_column);
+  const double y = view.eye_row - std::floor(view.eye_row);
+  b.near_edges = {f(-x), f(1.0 - x), f(-y), f(1.0 - y)};
+  std::int32_t unknown = 0;
+  for (std::size_t k = 0; k < near.cells.size(); ++k) {
+    const NearCell& cell = near.cells[k];
+    b.near_cells[k] = {f(cell.height_m - eye_height_m), f(cell.east_m), f(cell.north_m),
+                       f(cell.twist_m)};
+    unknown |= static_cast<std::int32_t>(cell.unknown) << k;
+  }
+  b.near = {near.used ? 1 : 0, unknown, 0, 0};
+}
+
 /// The window as the shaders address it: integers relative to the post south-west of the eye.
 void put_window(const TerrainView& view, shader::FrameBlock& b) {
   constexpr std::int32_t low_bits = (1 << (block_levels + max_levels)) - 1;
@@ -88,6 +107,15 @@ void put_window(const TerrainView& view, shader::FrameBlock& b) {
 
 }  // namespace
 
+double HeightRounding::of_distance() const {
+  double result =
+      rounding_unit * largest_m / std::max(distance_m, 1e-3) + relief_share * relief_of_distance;
+  if (near_distance_m > 0) {
+    result += near_rest_m / near_distance_m + near_slope_share * near_steepest;
+  }
+  return result;
+}
+
 ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
                          double steepest, const HeightRounding& rounding) {
   const double edge = std::cos(camera.half_diagonal_rad(0.0));
@@ -96,9 +124,7 @@ ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double leve
   budget.level_px = level_px;
   // Ground moved by d in any direction is, over its old place, higher or lower by at most this.
   const double lift = std::hypot(1.0, steepest);
-  budget.geometry_rad = lift * (map.error_rad + float_angle_rad) +
-                        (rounding_unit * rounding.largest_m + relief_share * rounding.relief_m) /
-                            std::max(rounding.clearance_m, 1e-3);
+  budget.geometry_rad = lift * (map.error_rad + float_angle_rad) + rounding.of_distance();
   budget.geometry_px = px_per_rad * budget.geometry_rad;
   return budget;
 }
@@ -118,6 +144,7 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
   b.ray_dy = vec4_of(axes[1] / camera.fy, camera.height_px);
   b.ray_origin = vec4_of(camera.ray(0.5, 0.5).xyz, map.range_m);
   put_window(view, b);
+  put_near_ground(view, frame.eye.height_m, b);
   const float high = f(frame.eye.height_m);
   b.eye.z = high;
   b.eye.w = f(frame.eye.height_m - static_cast<double>(high));

@@ -29,9 +29,15 @@ struct ErrorBudget {
 
 /// What rounding of heights in float32 depends on.
 struct HeightRounding {
-  double largest_m = 0;    ///< largest magnitude of a height in the window
-  double relief_m = 0;     ///< largest difference of the posts of one cell near the eye
-  double clearance_m = 0;  ///< lower bound on the distance to the terrain
+  double largest_m = 0;           ///< largest magnitude of a height in the window
+  double distance_m = 0;          ///< lower bound on the distance to terrain drawn from its posts
+  double relief_of_distance = 0;  ///< of such cells: difference of heights inside one / distance
+  /// Of cells drawn about the eye, where there are any: lower bound on the distance, and the
+  /// largest difference of heights inside one over a post.
+  double near_distance_m = 0, near_steepest = 0;
+
+  /// Largest error of a height over its distance.
+  [[nodiscard]] double of_distance() const;
 };
 
 /// Everything the passes of one frame read. Plain data, made by frame_blocks() in double.

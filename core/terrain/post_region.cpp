@@ -30,18 +30,42 @@ struct Merge {
   double apart_m = 0;         ///< largest difference between two known heights of one post
   bool half_known = false;    ///< one of them was void and the other known
 
-  /// `inside`: not on the tile's own edge.
-  void put(float& post, float value, bool inside) {
-    if (over_coarser && inside) {
+  /// `inside`: not on the tile's own edge. Whether the post is now the value.
+  bool put(float& post, float value, bool inside) {
+    if ((over_coarser && inside) || std::isnan(post)) {
       post = std::isnan(value) ? tile_void : value;
-    } else if (std::isnan(post)) {
-      post = std::isnan(value) ? tile_void : value;
-    } else if (std::isnan(value) || post == tile_void) {
+      return true;
+    }
+    if (std::isnan(value) || post == tile_void) {
       half_known = half_known || std::isnan(value) != (post == tile_void);
-      post = std::isnan(value) ? post : value;
-    } else if (value != post) {
-      apart_m = std::max(apart_m, static_cast<double>(std::abs(value - post)));
-      post = std::max(post, value);
+      if (std::isnan(value)) return false;
+      post = value;
+      return true;
+    }
+    if (value == post) return false;
+    apart_m = std::max(apart_m, static_cast<double>(std::abs(value - post)));
+    if (value < post) return false;
+    post = value;
+    return true;
+  }
+};
+
+/// The posts of a region and, where wanted, what rounding took from each of them.
+struct Posts {
+  std::span<float> heights_m;
+  std::span<float> rests_m;  ///< as many, or none
+
+  void put(std::size_t k, double value_m, bool inside, Merge& merge) const {
+    const auto rounded = static_cast<float>(value_m);
+    if (!merge.put(heights_m[k], rounded, inside) || rests_m.empty()) return;
+    rests_m[k] = static_cast<float>(value_m - static_cast<double>(rounded));
+  }
+  void add(std::size_t k, double more_m) const {
+    const double rest = rests_m.empty() ? 0.0 : static_cast<double>(rests_m[k]);
+    const double exact = static_cast<double>(heights_m[k]) + (rest + more_m);
+    heights_m[k] = static_cast<float>(exact);
+    if (!rests_m.empty()) {
+      rests_m[k] = static_cast<float>(exact - static_cast<double>(heights_m[k]));
     }
   }
 };
@@ -75,23 +99,21 @@ bool lay(const PostLattice& lattice, const PostBox& box, Overlay& o) {
 
 /// Merges one lattice row; `lower` and `upper` hold tile posts from tile column `first` on.
 void merge_row(const Overlay& o, int first, std::span<const float> lower,
-               std::span<const float> upper, float weight, bool edge_row, Merge& merge,
-               std::span<float> row) {
+               std::span<const float> upper, double weight, bool edge_row, Merge& merge,
+               const Posts& posts, std::size_t start) {
   const int ratio = o.columns.ratio;
   int k = (o.column0 - o.columns.first) / ratio - first;
   int part = (o.column0 - o.columns.first) % ratio;
   const auto blended = [&](int index) {
-    const float a = lower[static_cast<std::size_t>(index)];
-    if (weight == 0.0F) return a;
-    return a + weight * (upper[static_cast<std::size_t>(index)] - a);
+    const auto a = static_cast<double>(lower[static_cast<std::size_t>(index)]);
+    if (weight == 0.0) return a;
+    return a + weight * (static_cast<double>(upper[static_cast<std::size_t>(index)]) - a);
   };
   for (std::int32_t column = o.column0; column <= o.column1; ++column) {
-    float value = blended(k);
-    if (part != 0) {
-      value += static_cast<float>(part) / static_cast<float>(ratio) * (blended(k + 1) - value);
-    }
+    double value = blended(k);
+    if (part != 0) value += static_cast<double>(part) / ratio * (blended(k + 1) - value);
     const bool inside = !edge_row && column != o.columns.first && column != o.last_column;
-    merge.put(row[static_cast<std::size_t>(column - o.column0)], value, inside);
+    posts.put(start + static_cast<std::size_t>(column - o.column0), value, inside, merge);
     if (++part == ratio) {
       part = 0;
       ++k;
@@ -100,7 +122,7 @@ void merge_row(const Overlay& o, int first, std::span<const float> lower,
 }
 
 void merge_tile(const TerrainSource& source, const PostBox& box, const Overlay& o, Merge& merge,
-                std::span<float> posts, std::span<float> scratch) {
+                const Posts& posts, std::span<float> scratch) {
   const int first = (o.column0 - o.columns.first) / o.columns.ratio;
   const int last = (o.column1 - o.columns.first + o.columns.ratio - 1) / o.columns.ratio;
   const auto count = static_cast<std::size_t>(last - first + 1);
@@ -122,14 +144,13 @@ void merge_tile(const TerrainSource& source, const PostBox& box, const Overlay& 
     const auto start =
         static_cast<std::size_t>(r - box.row) * static_cast<std::size_t>(box.columns) +
         static_cast<std::size_t>(o.column0 - box.column);
-    merge_row(o, first, lower, upper, static_cast<float>(part) / static_cast<float>(o.rows.ratio),
-              edge_row, merge,
-              posts.subspan(start, static_cast<std::size_t>(o.column1 - o.column0 + 1)));
+    merge_row(o, first, lower, upper, static_cast<double>(part) / o.rows.ratio, edge_row, merge,
+              posts, start);
   }
 }
 
 void add_undulation(const TerrainSource& source, const PostBox& box, int stride,
-                    std::span<float> posts) {
+                    const Posts& posts) {
   const GeoidLookup& geoid = source.geoid;
   if (geoid.undulation_m == nullptr) return;
   const auto at = [&](std::int32_t column, std::int32_t row) {
@@ -147,9 +168,9 @@ void add_undulation(const TerrainSource& source, const PostBox& box, int stride,
         for (int c = c0; c < std::min(c0 + stride, box.columns); ++c) {
           const double x = static_cast<double>(c - c0) / stride;
           const double n = (sw * (1 - x) + se * x) * (1 - y) + (nw * (1 - x) + ne * x) * y;
-          float& post = posts[static_cast<std::size_t>(r) * static_cast<std::size_t>(box.columns) +
-                              static_cast<std::size_t>(c)];
-          post = static_cast<float>(static_cast<double>(post) + n);
+          posts.add(static_cast<std::size_t>(r) * static_cast<std::size_t>(box.columns) +
+                        static_cast<std::size_t>(c),
+                    n);
         }
       }
     }
@@ -205,13 +226,16 @@ GeoBox geo_box(const PostLattice& lattice, const PostBox& box) {
 }
 
 RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geoid_stride,
-                        std::span<float> posts, std::span<float> scratch) {
+                        std::span<float> posts, std::span<float> scratch, std::span<float> rests) {
   RL_ASSERT(!source.lattice.polar());
+  RL_ASSERT(rests.empty() || rests.size() == posts.size());
   RL_ASSERT(posts.size() ==
             static_cast<std::size_t>(box.rows) * static_cast<std::size_t>(box.columns));
   RL_ASSERT(scratch.size() >= 4 * static_cast<std::size_t>(box.columns) + 8);
   RegionFacts facts;
   std::fill(posts.begin(), posts.end(), nan_f);
+  std::fill(rests.begin(), rests.end(), 0.0F);
+  const Posts region{posts, rests};
   const GeoBox place = geo_box(source.lattice, box);
   // Coarsest tiles first, so that each finer one has the last word; within a step, file order.
   double step = std::numeric_limits<double>::infinity();
@@ -232,7 +256,7 @@ RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geo
       ++facts.tiles;
       interpolated = interpolated || overlay.rows.ratio > 1 || overlay.columns.ratio > 1;
       Merge merge{over_coarser};
-      merge_tile(source, box, overlay, merge, posts, scratch);
+      merge_tile(source, box, overlay, merge, region, scratch);
       // Posts that coincide agree by now. Where one side of an edge is interpolated between coarser
       // posts, the truth has two sides and this region only one.
       if (!interpolated) continue;
@@ -241,7 +265,7 @@ RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geo
     }
   }
   std::replace(posts.begin(), posts.end(), tile_void, nan_f);
-  add_undulation(source, box, geoid_stride, posts);
+  add_undulation(source, box, geoid_stride, region);
   return facts;
 }
 

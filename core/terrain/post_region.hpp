@@ -43,10 +43,13 @@ struct RegionFacts {
 /// Where tiles of one step share posts the taller is the truth and a known post wins over a void
 /// one; where a finer tile overlaps a coarser one in area the finer one is, its voids included.
 /// `geoid_stride`: the undulation is looked up at every so manieth post and interpolated between.
-/// Shape:  posts.size() == rows * columns; scratch.size() >= 4 * columns + 8.
+/// `rests`: where given, what is left of each post by rounding it to a float: post + rest is the
+/// height to 1e-10 m (interpolation and undulation are double). Undefined where unknown.
+/// Shape:  posts.size() == rows * columns; scratch.size() >= 4 * columns + 8; rests as posts.
 /// Cost:   O(posts + tiles); no allocation.
 RegionFacts read_region(const TerrainSource& source, const PostBox& box, int geoid_stride,
-                        std::span<float> posts, std::span<float> scratch);
+                        std::span<float> posts, std::span<float> scratch,
+                        std::span<float> rests = {});
 
 /// The place of a box on the Earth, for choosing tiles.
 GeoBox geo_box(const PostLattice& lattice, const PostBox& box);

@@ -333,6 +333,19 @@ void put_ball(const PostLattice& lattice, const BlockId& id, BlockFacts& facts) 
   facts.radius_m = between_samples * radius + 20.0;
 }
 
+/// Keeps what rounding took from the block's own posts.
+void put_rests(std::span<const float> region, TerrainBlock& block) {
+  for (int y = 0; y < block_posts; ++y) {
+    for (int x = 0; x < block_posts; ++x) {
+      const float rest = region[static_cast<std::size_t>((y + margin) * corners + x + margin)];
+      const float units =
+          std::isnan(rest) ? 0.0F : std::round(rest * static_cast<float>(1.0 / rest_unit_m));
+      block.rests[static_cast<std::size_t>(y * block_posts + x)] =
+          static_cast<std::int8_t>(std::clamp(units, -128.0F, 127.0F));
+    }
+  }
+}
+
 /// Adds what the truth can differ from the finest posts by, part by part.
 void add_gaps(const PolarCells& truth, std::span<const float> fine, int level, BlockFacts& facts) {
   constexpr int part_posts = block_posts / residual_parts;
@@ -401,6 +414,7 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   block.chart = source.lattice.chart;
   block.edits = static_cast<int>(source.edits.size());
   block.facts = {};
+  block.rests.fill(0);
   if (source.lattice.polar()) {
     build_polar_block(source, scratch, block);
     return;
@@ -409,7 +423,8 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const bool fine_posts =
       source.lattice.latitude_step_deg < widest_stride_deg / coarse_geoid_stride;
   const int stride = id.level == 0 || !fine_posts ? 1 : coarse_geoid_stride;
-  const RegionFacts region = read_region(source, box, stride, fine, scratch.rows);
+  const std::span<float> rests = id.level == 0 ? scratch.rests.first(count) : std::span<float>{};
+  const RegionFacts region = read_region(source, box, stride, fine, scratch.rows, rests);
   const bool with_voids =
       std::any_of(fine.begin(), fine.end(), [](float h) { return std::isnan(h); });
   if (with_voids) put_floors(source, box, far_floor_m, fine);
@@ -417,6 +432,7 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   builder.settle();
   builder.measure(block.facts);
   builder.fill(block);
+  if (id.level == 0) put_rests(rests, block);
   BlockFacts& facts = block.facts;
   facts.mismatched_tiles = region.mismatched_tiles;
   facts.mixed = facts.mixed || region.seam_void;

@@ -28,6 +28,9 @@ inline constexpr float void_threshold_m = -50'000.0F;
 inline constexpr int residual_parts = 4;  ///< a side, each with a residual and a slope of its own
 inline constexpr int region_margin = 2;   ///< cells of its level that a block looks beyond itself
 
+/// Unit of TerrainBlock::rests: half an ulp of the highest float below 16384 m is 127 of it. m
+inline constexpr double rest_unit_m = 0x1p-11 / 127;
+
 struct BlockId {
   int level = 0;
   std::int32_t column = 0, row = 0;
@@ -63,6 +66,9 @@ struct TerrainBlock {
   int edits = 0;  ///< the block knows the first so many edits
   BlockFacts facts;
   std::array<float, block_posts * block_posts> posts{};  ///< row-major from the south-west
+  /// At level 0, what rounding to a float took from each post, in units of rest_unit_m; 0 in a
+  /// polar chart, whose posts are off by their rounding.
+  std::array<std::int8_t, block_posts * block_posts> rests{};
   /// Pyramid of maxima: 32 x 32 nodes of 2 x 2 cells, then 16 x 16, ... 1. A node bounds every
   /// post, floor and true height of its cells and of one cell more on every side, of this level and
   /// of every finer one.
@@ -70,10 +76,12 @@ struct TerrainBlock {
 };
 
 /// Memory a block is built in. Shape: `posts` >= region_side(level)^2, `rows` >=
-/// row_scratch(level); in a polar chart `low` and `high` >= polar_cells(level).
+/// row_scratch(level), `rests` >= region_side(0)^2; in a polar chart `low` and `high` >=
+/// polar_cells(level).
 struct BlockScratch {
   std::span<float> posts;
   std::span<float> rows;
+  std::span<float> rests;
   std::span<float> low{}, high{};
 };
 constexpr int region_side(int level) {

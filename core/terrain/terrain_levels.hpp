@@ -47,12 +47,27 @@ struct PostRect {
   friend bool operator==(const PostRect&, const PostRect&) = default;
 };
 
+/// A cell of the finest level written about the eye: over the ground point x columns east and y
+/// rows north of it stands height + east x + north y + twist x y. m over the ellipsoid, per post.
+struct NearCell {
+  double height_m = 0, east_m = 0, north_m = 0, twist_m = 0;
+  bool unknown = false;  ///< then flat: the floor up to which it is drawn as unknown
+};
+
+/// The nine cells round a low eye, row-major from the south-west. What a float32 height leaves out
+/// counts there, half a millimetre of a few metres; beyond them it does not.
+struct NearGround {
+  bool used = false;
+  std::array<NearCell, 9> cells{};
+};
+
 /// The terrain window as one frame sees it.
 struct TerrainView {
   PostLattice lattice;
   LevelSizes sizes;
   double eye_column = 0, eye_row = 0;           ///< lattice posts
   std::array<PostRect, max_levels> drawable{};  ///< of each level
+  NearGround near;                              ///< used where the eye is low
 };
 
 /// One block's place in the window.

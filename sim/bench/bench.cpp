@@ -21,8 +21,9 @@ Outcome bench(const BenchOptions& options) {
   }
   BenchResult result;
   if (Outcome run = run_bench(options, views, false, result); !run.ok()) return run;
-  std::fputs(bench_markdown(result).c_str(), stdout);
-  return write_bench_files(options, result);
+  const std::string table = bench_markdown(result);
+  std::fputs(table.c_str(), stdout);
+  return write_bench_files(options, result, table);
 }
 
 }  // namespace ridgeline::sim

@@ -38,4 +38,15 @@ std::vector<BenchView> log_views(const std::string& log_file, const BusProfile& 
 /// Outcome: the message names the file (or the method) and what is wrong with it.
 Outcome bench(const BenchOptions& options);
 
+/// The grids, settings and picture size of a paper over the height map of Puget Sound, its
+/// published figures beside ours. Views: `log_views` of a circle of 8 km over the foothills west of
+/// Mount Rainier, 600 m over the ground, 6 degrees down, display range 50 km. Outcome: the message
+/// names the file or the word and what is wrong with it.
+Outcome bench_paper(const BenchOptions& options, const std::string& paper,
+                    const std::string& puget_file);
+
+struct PugetMap;
+/// Its views.
+[[nodiscard]] std::vector<BenchView> puget_views(const PugetMap& map, int count);
+
 }  // namespace ridgeline::sim

@@ -38,13 +38,14 @@ std::vector<SpeedErrorSeries> plot_series(const BenchResult& result) {
   return series;
 }
 
-Outcome write_bench_files(const BenchOptions& options, const BenchResult& result) {
+Outcome write_bench_files(const BenchOptions& options, const BenchResult& result,
+                          const std::string& table) {
   const auto write = [](const std::string& file, const std::string& text) {
     return file.empty() ? Outcome{} : write_file(file, text);
   };
   Outcome written = write(options.json_file, bench_json(result));
   if (!written.ok()) return written;
-  written = write(options.markdown_file, bench_markdown(result));
+  written = write(options.markdown_file, table);
   if (!written.ok()) return written;
   const std::string title = "Speed against error, " + std::to_string(result.width_px) + " x " +
                             std::to_string(result.height_px) + " px";

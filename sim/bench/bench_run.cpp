@@ -1,7 +1,6 @@
 #include "sim/bench/bench_run.hpp"
 
 #include <malloc.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,12 +13,6 @@
 
 namespace ridgeline::sim {
 namespace {
-
-double process_cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
 
 double now_ms() {
   const auto time = std::chrono::steady_clock::now().time_since_epoch();
@@ -85,11 +78,9 @@ Outcome Run::time_frame(const BenchMethod& method, const BenchView& view, bool c
                         BenchRow& row) {
   use(method);
   if (Outcome prepared = session_.prepare(view.input); !prepared.ok()) return prepared;
-  const double before_ms = process_cpu_ms();
   const Picture picture = session_.draw(view.input, false);
-  const double core_ms = process_cpu_ms() - before_ms;
   if (!counted || picture.report.availability.mode == Mode::removed) return picture.problem;
-  row.core_ms.push_back(core_ms);
+  row.core_ms.push_back(picture.core_ms);
   row.frame_ms.push_back(picture.cpu_ms);
   const auto& ms = picture.counts.pass_ms;
   row.gpu_ms.push_back(std::accumulate(ms.begin(), ms.end(), 0.0));

@@ -18,7 +18,8 @@ namespace ridgeline::sim {
 /// - Distances are uploaded into the renderer's range picture; the upload is part of the frame.
 /// - Only the finest level of the window is held: what a window of several levels shows beyond it
 ///   is sky here, and params() says so.
-/// - A cell with an unknown post is unknown, at the floor of its posts.
+/// - A cell with an unknown post is unknown; it slopes from the floors of its unknown posts to the
+///   heights of its known ones, where ours is flat.
 std::unique_ptr<Method> make_embree(const MethodSpec& spec, std::string& problem);
 
 }  // namespace ridgeline::sim

@@ -17,7 +17,8 @@ namespace ridgeline::sim {
 ///   cone or beyond the range are left out, by a ball round each (CPU, every frame).
 /// - Where the window has several levels, the coarse one is cut off at the border of the finer one
 ///   pixel by pixel; the two may differ in height there (no stitching).
-/// - A triangle with an unknown post is unknown, drawn at the floor of the posts.
+/// - A triangle with an unknown post is unknown; it slopes from floors of unknown posts to heights
+///   of known ones, and the other triangle of its cell may be known. Ours makes the cell flat.
 std::unique_ptr<Method> make_mesh(const MethodSpec& spec, std::string& problem);
 
 }  // namespace ridgeline::sim

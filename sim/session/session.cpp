@@ -1,5 +1,7 @@
 #include "sim/session/session.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +17,12 @@ namespace {
 double now_ms() {
   const auto time = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double, std::milli>(time).count();
+}
+
+double process_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
 }
 
 const double program_start_ms = now_ms();
@@ -145,7 +153,8 @@ void Session::open_terrain(double far_floor) {
   worker_->know_edits(core_edits_);
   held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
   finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
-  terrain_.emplace(*worker_, lattice_, window_, held_, finest_posts_,
+  finest_rests_.resize(finest_posts_.size());
+  terrain_.emplace(*worker_, lattice_, window_, held_, FinestPosts{finest_posts_, finest_rests_},
                    polar_ ? options_.settings.range_m : 0.0);
 }
 
@@ -201,7 +210,7 @@ Session::~Session() {
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_};
-  double start_ms = 0;
+  double start_ms = 0, start_core_ms = 0;
   surface_->make_current();
   picture.problem = prepare(input);
   if (!picture.problem.ok()) {
@@ -215,12 +224,14 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     const GlSection no_new_objects;
     apply_edits(static_cast<double>(input.time_ns) * 1e-9);
     settle_if_due(input);
+    start_core_ms = process_ms();
     start_ms = now_ms();
     picture.report =
         draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;
+  picture.core_ms = process_ms() - start_core_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
   picture.take = worker_->last_take();
   if (method_ != nullptr && picture.report.availability.mode != Mode::removed) {

@@ -42,6 +42,7 @@ struct Picture {
   Outcome problem;            ///< a method could not be built: nothing was drawn
   MethodFacts method;         ///< of the method that drew it; nothing for the module's own passes
   double cpu_ms = 0;          ///< wall time of draw_frame and of waiting for it
+  double core_ms = 0;         ///< CPU time of all threads of the program over that
   double since_start_ms = 0;  ///< from the start of the program to the end of this frame
   BlockWorker::TakeTimes take;
   double wanted_px = 0;  ///< the configured error bound and range
@@ -132,6 +133,7 @@ class Session {
   std::unique_ptr<BlockWorker> worker_;
   std::vector<HeldBlock> held_;
   std::vector<float> finest_posts_;
+  std::vector<std::int8_t> finest_rests_;
   std::optional<TerrainKeeper> terrain_;
   std::vector<sim::TerrainEdit> edits_;
   std::vector<ridgeline::TerrainEdit> core_edits_;

@@ -66,7 +66,8 @@ class Kept {
         sizes_{levels, blocks, blocks},
         held_(static_cast<std::size_t>(levels * blocks * blocks)),
         posts_(static_cast<std::size_t>(blocks * blocks) * 64 * 64),
-        keeper(port, ground.lattice(), sizes_, held_, posts_) {
+        rests_(posts_.size()),
+        keeper(port, ground.lattice(), sizes_, held_, {posts_, rests_}) {
     auto surface = EglSurface::make();
     EXPECT_TRUE(surface);
     surface_ = std::move(surface).value();
@@ -108,6 +109,7 @@ class Kept {
   LevelSizes sizes_;
   std::vector<HeldBlock> held_;
   std::vector<float> posts_;
+  std::vector<std::int8_t> rests_;
   std::optional<EglSurface> surface_;
   int edits_ = 0;
 

@@ -135,6 +135,7 @@ oracle::VerifySummary Scene::judged(int pixels_per_frame) const {
   options.terrain_folder = options_.terrain_folder;
   if (!options_.coverage_file.empty()) options.coverage_file = options_.coverage_file;
   if (!options_.edit_file.empty()) options.edit_file = options_.edit_file;
+  if (options_.geoid != "none") options.geoid = options_.geoid;
   options.pixels_per_frame = pixels_per_frame;
   std::ostringstream progress;
   return oracle::run_verify(options, progress);

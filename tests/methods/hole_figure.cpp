@@ -1,6 +1,7 @@
 #include "tests/methods/hole_figure.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -51,6 +52,10 @@ Colour colour_at(const sim::Picture& picture, int width, int u, int v) {
   return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
 }
 
+float at(const sim::Picture& picture, int width, const JudgedPixel& pixel) {
+  return picture.range_m[static_cast<std::size_t>(pixel.v) * width + pixel.u];
+}
+
 Colour verdict_colour(const JudgedPixel& pixel, bool is_cast, const Colour& ours) {
   if (pixel.unsound) return {230, 30, 30};
   if (pixel.incomplete) return {250, 210, 40};
@@ -97,6 +102,10 @@ sim::Outcome draw_hole(const Hole& hole, const std::string& folder, HoleNumbers&
     const bool wrong = pixel.unsound || pixel.incomplete;
     numbers.wrong += wrong ? 1 : 0;
     numbers.wrong_uncast += wrong && !is_cast ? 1 : 0;
+    numbers.lost += std::isinf(at(theirs, width, pixel)) && at(ours, width, pixel) > 0 &&
+                            !std::isinf(at(ours, width, pixel))
+                        ? 1
+                        : 0;
     numbers.cast_percent += is_cast ? 100.0 / static_cast<double>(judged.pixels.size()) : 0.0;
     panels.put(0, pixel.u, pixel.v, colour_at(theirs, width, pixel.u, pixel.v));
     panels.put(1, pixel.u, pixel.v, own);

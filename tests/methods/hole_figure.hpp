@@ -26,6 +26,7 @@ struct HoleNumbers {
   int judged = 0, unsound = 0, incomplete = 0;
   int wrong = 0;         ///< one of the two
   int wrong_uncast = 0;  ///< of those, where the error buffer is empty
+  int lost = 0;          ///< sky where ours shows ground
   double cast_percent = 0;
   double max_px = 0;         ///< real error
   bool max_is_more = false;  ///< the search ended there

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
-#include "sim/bench/bench.hpp"
 #include "sim/methods/loffler.hpp"
 #include "sim/synthetic/make_demo.hpp"
 #include "tests/methods/method_judge.hpp"
@@ -16,6 +16,21 @@ constexpr ImageGeometry image{1024, 800, 60};
 constexpr PixelSet sample{3, 3, 1024, 800, 13};
 constexpr double most_px = 64;
 
+/// Views over the synthetic island: its middle, 100 to 9000 m over the ground, and a valley.
+struct View {
+  const char* name;
+  GeodeticPosition eye;
+  Attitude attitude;
+};
+constexpr View views[] = {{"low", {-47.5, -123.5, 1017}, {0, -2, 30}},
+                          {"valley", {-47.448333, -123.666667, 200}, {0, -1, 150}},
+                          {"high", {-47.5, -123.5, 3917}, {0, -10, 250}},
+                          {"steep down", {-47.5, -123.5, 4917}, {0, -60, 10}},
+                          {"banked", {-47.5, -123.5, 2417}, {40, -5, 80}},
+                          {"wide horizon", {-47.5, -123.5, 9917}, {0, -3, 330}}};
+constexpr double view_count = 6;
+static_assert(std::size(views) == 6);
+
 /// One variant of the method over all views.
 struct Row {
   std::string settings;
@@ -26,13 +41,12 @@ struct Row {
 
 struct Ground {
   sim::Session session;
-  std::vector<sim::BenchView> views;
   std::unique_ptr<MethodJudge> judge;
 };
 
-void add(Row& row, const JudgedPicture& judged, const std::vector<float>& errors, double views) {
-  row.over_percent += judged.percent_over(judged.claim_px) / views;
-  row.mean_px += judged.mean_px() / views;
+void add(Row& row, const JudgedPicture& judged, const std::vector<float>& errors) {
+  row.over_percent += judged.percent_over(judged.claim_px) / view_count;
+  row.mean_px += judged.mean_px() / view_count;
   row.max_px = std::max(row.max_px, judged.max_px());
   for (const JudgedPixel& pixel : judged.pixels) {
     const bool wrong = pixel.unsound || pixel.incomplete;
@@ -56,12 +70,13 @@ bool measure(Ground& ground, Row& row) {
   auto method = std::make_unique<sim::Loffler>(settings);
   sim::Loffler& loffler = *method;
   ground.session.use(&ground.session.keep(std::move(method)));
-  const auto views = static_cast<double>(ground.views.size());
-  for (const sim::BenchView& view : ground.views) {
-    const sim::Picture picture = ground.session.draw(view.input, true);
+  for (const View& view : views) {
+    FrameInput input;
+    input.eye = view.eye;
+    input.attitude = view.attitude;
+    const sim::Picture picture = ground.session.draw(input, true);
     if (picture.range_m.empty()) {
-      std::fprintf(stderr, "%s: not drawn %s\n", view.name.c_str(),
-                   picture.problem.message.c_str());
+      std::fprintf(stderr, "%s: not drawn %s\n", view.name, picture.problem.message.c_str());
       return false;
     }
     std::vector<float> errors;
@@ -69,8 +84,8 @@ bool measure(Ground& ground, Row& row) {
       errors.resize(picture.range_m.size());
       loffler.read_errors(errors);
     }
-    row.cast_percent += 100.0 * picture.method.ray_cast_share / views;
-    add(row, ground.judge->judge(picture, sample, settings.gamma_px, most_px), errors, views);
+    row.cast_percent += 100.0 * picture.method.ray_cast_share / view_count;
+    add(row, ground.judge->judge(picture, sample, settings.gamma_px, most_px), errors);
   }
   return true;
 }
@@ -84,11 +99,10 @@ int print_hole_tables(const std::string& folder) {
     return 3;
   }
   Ground ground;
-  ground.views = sim::fixed_views(island);
   sim::SceneOptions options;
   options.terrain_folder = island;
   options.settings.image = image;
-  const sim::Outcome opened = ground.session.open(options, ground.views.front().input.eye);
+  const sim::Outcome opened = ground.session.open(options, views[0].eye);
   if (!opened.ok()) {
     std::fprintf(stderr, "%s\n", opened.message.c_str());
     return 3;

@@ -18,8 +18,8 @@ int run(const std::string& folder) {
   }
   std::printf(
       "| picture | scene | claimed, px | pixels judged | wrong | of them without an error in the "
-      "buffer | ray cast | largest real error, px | wrong in ours |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "buffer | sky where ground stands | ray cast | largest real error, px | wrong in ours |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const Hole& hole : published_holes()) {
     HoleNumbers n;
     if (const sim::Outcome drawn = draw_hole(hole, folder, n); !drawn.ok()) {
@@ -27,9 +27,10 @@ int run(const std::string& folder) {
       return 3;
     }
     std::printf(
-        "| `%s` | %s | %g | %d | %d (%d unsound, %d incomplete) | %d | %.1f %% | %s%.1f | %d |\n",
+        "| `%s` | %s | %g | %d | %d (%d unsound, %d incomplete) | %d | %d | %.1f %% | %s%.1f | %d "
+        "|\n",
         hole.file.c_str(), hole.what.c_str(), hole.claim_px, n.judged, n.wrong, n.unsound,
-        n.incomplete, n.wrong_uncast, n.cast_percent, n.max_is_more ? "> " : "", n.max_px,
+        n.incomplete, n.wrong_uncast, n.lost, n.cast_percent, n.max_is_more ? "> " : "", n.max_px,
         n.ours_wrong);
     std::fflush(stdout);
   }

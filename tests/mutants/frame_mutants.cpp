@@ -9,6 +9,7 @@ constexpr std::string_view renderer = "core/render/renderer.cpp";
 constexpr std::string_view levels = "core/frame/level_error.cpp";
 constexpr std::string_view pipeline = "core/frame/frame_pipeline.cpp";
 constexpr std::string_view keeper = "core/frame/terrain_keeper.cpp";
+constexpr std::string_view ground = "core/frame/ground_below.cpp";
 constexpr std::string_view grid = "core/geo/polar_grid.cpp";
 
 constexpr Mutant table[] = {
@@ -16,9 +17,13 @@ constexpr Mutant table[] = {
     {"scale_of_the_image_centre", blocks, "budget.geometry_px = px_per_rad * budget.geometry_rad;",
      "budget.geometry_px = edge * edge * px_per_rad * budget.geometry_rad;",
      "pixels per radian at the centre of the picture stand for all of it", "low_over_geoid"},
-    {"float_height_zero", blocks,
-     "(rounding_unit * rounding.largest_m + relief_share * rounding.relief_m)",
-     "0.0 * rounding.largest_m", "rounding of stored heights is not counted", "low_over_geoid"},
+    {"rests_forgotten", ground, "rest_unit_m * finest_.rests[k]", "0.0",
+     "ground under a low eye is drawn from rounded heights", "low_over_geoid"},
+    {"near_ground_not_used", pipeline, "view.near = terrain.near_ground()",
+     "view.near = NearGround{}", "ground under a low eye is drawn as any other", "low_over_geoid"},
+    {"near_cells_exchanged", ground, "near_cell(column - 1 + k % 3, row - 1 + k / 3)",
+     "near_cell(column - 1 + k / 3, row - 1 + k % 3)", "rows and columns round a low eye exchanged",
+     "low_over_rough"},
     {"geometry_not_counted", pipeline, "std::max(settings.error_px, budget.smallest_px())",
      "settings.error_px", "the wanted bound is promised whatever the frame needs", "levels_crest"},
     {"never_incomplete", pipeline,
@@ -92,7 +97,7 @@ constexpr Mutant table[] = {
      "blocks built before an edit are taken after it", "edits_arriving"},
     {"range_beyond_the_window", keeper, "if (inside) return range;", "return range;",
      "the range ends where it was wished, not where the window does", "dash"},
-    {"clearance_for_granted", keeper, "std::max(near_m - residual, least_clearance_m)", "1e4",
+    {"clearance_for_granted", ground, "std::min(nine.distance_m, others.distance_m)", "1e4",
      "the eye is always far from the ground", "low_over_geoid"},
 };
 

@@ -2,13 +2,9 @@
 #include <string>
 
 #include "sim/synthetic/tile_writer.hpp"
+#include "tests/support/geoid_writer.hpp"
 
 namespace ridgeline::test {
-
-/// Cells of one degree, ends excluded.
-struct CellRange {
-  int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
-};
 
 /// Writes cells as DTED level 0 (posts half a minute apart, the smallest tiles there are) or aborts
 /// the test program. NaN is void.
@@ -17,12 +13,6 @@ void write_coarse_cells(const std::string& folder, const CellRange& cells,
 /// One cell as a 3" tile.
 void write_fine_cell(const std::string& folder, int south_deg, int west_deg,
                      const sim::HeightFunction& height_m);
-/// A geoid of half degrees over a range of cells: `least_m` and up to `more_m` on top.
-void write_geoid(const std::string& file, const CellRange& cells, double least_m, double more_m);
-
-/// A number in 0..1 that depends on the post alone.
-double lottery(double latitude_deg, double longitude_deg);
-
 /// Mountains of all sizes down to one post, from 0 to about 3200 m.
 double rough_m(double latitude_deg, double longitude_deg);
 /// The same with void islands and single void posts.

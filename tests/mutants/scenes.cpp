@@ -318,6 +318,13 @@ void add_other_scenes(std::vector<DesignedScene>& all) {
                  options,
                  {{{46.013, 9.027, ground_m + 1.2}, {90, -40, 30}},
                   {{46.013, 9.027, ground_m + 2.5}, {90, -20, 130}}}});
+  options = options_of({.range_km = 5});
+  options.geoid = "geoid.gtx";
+  all.push_back({"low_over_rough",
+                 "an eye a few metres over slopes",
+                 over_geoid,
+                 options,
+                 {{{46.0131, 9.0272, 1450}, {0, -50, 30}}}});
   const DesignedLand edited{"edited", [](const std::string& folder) {
                               write_coarse_cells(folder, alps, rough_m);
                               std::ofstream(folder + "/edits.txt")

@@ -234,10 +234,11 @@ TEST(Block, built_twice_in_dirty_memory_has_the_same_bits) {
   const TerrainSource source = ground.source();
   const auto side = static_cast<std::size_t>(region_side(4));
   std::vector<float> posts(side * side, unknown), rows(static_cast<std::size_t>(row_scratch(4)), 7);
+  std::vector<float> rests(region_side(0) * region_side(0), unknown);
   TerrainBlock reused;
   for (int level = 4; level >= 0; --level) {
     const BlockId id{level, level - 2, -1};
-    build_block(source, id, far_floor, {posts, rows}, reused);
+    build_block(source, id, far_floor, {posts, rows, rests}, reused);
     const TerrainBlock fresh = block_of(source, id, far_floor);
     EXPECT_EQ(reused.posts, fresh.posts) << level;
     EXPECT_EQ(reused.highest, fresh.highest) << level;

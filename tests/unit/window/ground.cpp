@@ -192,7 +192,8 @@ TerrainBlock block_of(const TerrainSource& source, const BlockId& id, double far
   const auto side = static_cast<std::size_t>(region_side(id.level));
   std::vector<float> posts(side * side), rows(static_cast<std::size_t>(row_scratch(id.level)));
   TerrainBlock block;
-  build_block(source, id, far_floor_m, {posts, rows}, block);
+  std::vector<float> rests(region_side(0) * region_side(0));
+  build_block(source, id, far_floor_m, {posts, rows, rests}, block);
   return block;
 }
 

@@ -51,7 +51,7 @@ struct Built {
     rows.resize(static_cast<std::size_t>(row_scratch(id.level)));
     low.resize(polar_cells(id.level));
     high.resize(polar_cells(id.level));
-    build_block(source, id, 100.0, {posts, rows, low, high}, block);
+    build_block(source, id, 100.0, {posts, rows, {}, low, high}, block);
   }
 };
 
