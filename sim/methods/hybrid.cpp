@@ -15,7 +15,7 @@
 namespace ridgeline::sim {
 namespace {
 
-constexpr int side_location = 0;  // as in the shaders
+constexpr int side_location = 0, any_unknown_location = 1;  // as in the shaders
 constexpr float sky = 1e30f;
 
 struct HybridSettings {
@@ -205,6 +205,8 @@ void Hybrid::draw(const RangeScene& scene) {
   choose(scene);
   range_ = scene.renderer.names().range;
   target_.begin(scene.renderer);
+  glUseProgram(mesh_.program.name());
+  glUniform1i(any_unknown_location, scene.report.window.void_posts > 0 ? 1 : 0);
   mesh_.draw(settings_.cell);
   glEnable(GL_CULL_FACE);  // the target's rows run downwards: a near face turns clockwise
   glFrontFace(GL_CW);

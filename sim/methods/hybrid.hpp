@@ -31,6 +31,7 @@ namespace ridgeline::sim {
 ///   the texture unit.
 /// - Cells are drawn front to back, but OpenGL ES 3.1 has no early depth test for fragments that
 ///   write their depth, so rays behind a hit are cast as well.
+/// - A mesh's fragment over an unknown cell, or in a triangle with an unknown post, is unknown.
 /// - Minimum and maximum are made on the CPU when the terrain changes. Where the window has coarser
 ///   levels, their cells are bounded by the window's minimum and maximum.
 /// - The last bit of a distance says whether a ray has found it; that is how facts() counts.

@@ -2,7 +2,7 @@
 // Heights come from the relief pyramid at the level that fits the distance to the farther neighbour.
 layout(local_size_x = 64) in;
 layout(binding = 2) uniform highp sampler2D relief_texture;  // average, lowest, highest, known
-// Two a vertex: clip coordinates; then post coordinates and the normalised error.
+// Two a vertex: clip coordinates; then post coordinates, the normalised error, and 1 where unknown.
 layout(std430, binding = planes_buffer) writeonly buffer Vertices { vec4 vertices[]; };
 layout(std430, binding = slopes_buffer) readonly buffer Coarse { vec2 coarse[]; };
 
@@ -40,29 +40,31 @@ vec4 relief_texel(ivec2 texel, int level) {
   return texelFetch(relief_texture, clamp(texel, ivec2(0), last), level - 1);
 }
 
-// x: average, filtered between four texels; y: highest and z: delta, of the one aligned texel (L3).
-// Heights over the eye.
-vec3 relief_height(vec2 posts, int level) {
+// x: average, filtered between four texels; y: highest and z: delta, of the one aligned texel (L3);
+// w: 1 where a texel has no known post, so that its floor is in the average. Heights over the eye.
+vec4 relief_height(vec2 posts, int level) {
   vec2 from = posts - vec2(relief_place.xy);
   vec2 at = (from + 0.5) / float(1 << level) - 0.5;
   ivec2 low = ivec2(floor(at));
   vec2 f = at - vec2(low);
-  float south = mix(relief_texel(low, level).x, relief_texel(low + ivec2(1, 0), level).x, f.x);
-  float north = mix(relief_texel(low + ivec2(0, 1), level).x, relief_texel(low + 1, level).x, f.x);
-  float average = mix(south, north, f.y);
+  vec4 sw = relief_texel(low, level), se = relief_texel(low + ivec2(1, 0), level);
+  vec4 nw = relief_texel(low + ivec2(0, 1), level), ne = relief_texel(low + 1, level);
+  float average = mix(mix(sw.x, se.x, f.x), mix(nw.x, ne.x, f.x), f.y);
+  float unknown = min(min(sw.w, se.w), min(nw.w, ne.w)) > 0.0 ? 0.0 : 1.0;
   vec4 block = relief_texel(ivec2(floor(from + 0.5)) >> level, level);
-  return vec3(over_eye(average), over_eye(block.z), max(block.z - average, average - block.y));
+  float delta = max(block.z - average, average - block.y);
+  return vec4(over_eye(average), over_eye(block.z), delta, unknown);
 }
 
-vec3 height_at(vec2 posts, float spacing) {
+vec4 height_at(vec2 posts, float spacing) {
   ivec2 cell = ivec2(floor(posts));
   ivec4 finest = level_rect[0];
   bool held = all(greaterThanEqual(cell, finest.xy)) && all(lessThan(cell, finest.zw));
   int level = int(floor(log2(max(spacing, 1.0)) + 0.5));  // rounded, not up (L3)
   level = min(level, grid_size.z);
   if (!held || level < 1) {
-    float height = bilinear_height(posts).x;
-    return vec3(height, height, 0.0);
+    vec2 height = bilinear_height(posts);
+    return vec4(height.x, height.x, 0.0, height.y);
   }
   return relief_height(posts, level);
 }
@@ -77,12 +79,12 @@ void main() {
   ivec2 vertex = ivec2(index % grid_size.x, index / grid_size.x);
   vec2 ground = ground_point(vertex);
   vec2 posts = held_posts(posts_of_ground(ground));
-  vec3 height = height_at(posts, spacing_posts(vertex, ground));
+  vec4 height = height_at(posts, spacing_posts(vertex, ground));
   vec3 position = position_of(ground, height.x);
   float rho = view_ahead.w * height.z / length(position);  // lambda is a mean (L5)
   float error = rho > view_upward.w ? 1.0 - view_upward.w / rho : 0.0;
   // The vertex moves by up to delta and keeps its delta (L4).
   if (error > 0.0 && grid_size.w == 1) position = position_of(ground, height.y);
   vertices[2 * index] = clip_of(position);
-  vertices[2 * index + 1] = vec4(posts, error, 0.0);
+  vertices[2 * index + 1] = vec4(posts, error, height.w);
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "shaders/warp_frag.hpp"
+#include "shaders/warp_shade_frag.hpp"
 #include "shaders/warp_vert.hpp"
 #include "sim/methods/setting_reader.hpp"
 #include "sim/methods/warp_grid.hpp"
@@ -10,7 +11,7 @@
 namespace ridgeline::sim {
 namespace {
 
-constexpr int positions_unit = 6;  // as in warp.vert
+constexpr int positions_unit = 6, slopes_unit = 8;  // as in the shaders
 
 std::vector<std::uint32_t> grid_indices(int side) {
   std::vector<std::uint32_t> indices;
@@ -34,16 +35,25 @@ class Warp final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  void finish_picture(const Renderer& renderer) override;
   [[nodiscard]] MethodFacts facts() override;
 
  private:
   Outcome make_mesh();
+  Outcome make_picture(const RenderSizes& sizes);
+  void draw_mesh() const;
 
   WarpGrid grid_;
   RasterTarget target_;
   Program program_;
   Buffer indices_;
   VertexArray vertices_;
+  // Of pictures with detail.
+  Program shade_;
+  Texture picture_depth_;
+  Framebuffer picture_;
+  RenderSizes sizes_;
+  bool any_unknown_ = false;
   GLsizei index_count_ = 0;
 };
 
@@ -59,7 +69,21 @@ std::string Warp::params() const {
 Outcome Warp::build(const MethodTerrain& terrain, const RenderSizes& sizes) {
   if (Outcome made = target_.make(sizes); !made.ok()) return made;
   if (Outcome made = grid_.make(terrain); !made.ok()) return made;
-  return program_.name() == 0 ? make_mesh() : Outcome{};
+  if (program_.name() != 0) return {};
+  Outcome made = make_mesh();
+  if (made.ok() && grid_.settings().detail) made = make_picture(sizes);
+  return made;
+}
+
+Outcome Warp::make_picture(const RenderSizes& sizes) {
+  sizes_ = sizes;
+  auto depth = make_texture(GL_DEPTH_COMPONENT32F, sizes.width_px, sizes.height_px, 1, 4);
+  if (!depth) return failed(depth.fault(), "method warp");
+  picture_depth_ = std::move(depth).value();
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  picture_ = Framebuffer(name);
+  return make_method_program("warp_shade", shader::warp_vert, shader::warp_shade_frag, shade_);
 }
 
 Outcome Warp::make_mesh() {
@@ -79,22 +103,58 @@ Outcome Warp::make_mesh() {
   return {};
 }
 
-void Warp::draw(const RangeScene& scene) {
-  grid_.warp(scene);
-  target_.begin(scene.renderer);
-  glUseProgram(program_.name());
-  grid_.set_uniforms(scene);
+void Warp::draw_mesh() const {
   glActiveTexture(GL_TEXTURE0 + positions_unit);
   glBindTexture(GL_TEXTURE_2D, grid_.positions());
   glBindVertexArray(vertices_.name());
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+void Warp::draw(const RangeScene& scene) {
+  any_unknown_ = scene.report.window.void_posts > 0;
+  grid_.warp(scene);
+  target_.begin(scene.renderer);
+  glUseProgram(program_.name());
+  grid_.set_uniforms(any_unknown_, true);
+  draw_mesh();
   target_.end();
+}
+
+/// First the depth of what is in front, then its light over the picture.
+void Warp::finish_picture(const Renderer& renderer) {
+  if (!grid_.settings().detail) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                         renderer.names().colour, 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, picture_depth_.name(),
+                         0);
+  glViewport(0, 0, sizes_.width_px, sizes_.height_px);
+  glUseProgram(shade_.name());
+  grid_.set_uniforms(any_unknown_, false);
+  glActiveTexture(GL_TEXTURE0 + slopes_unit);
+  glBindTexture(GL_TEXTURE_2D, grid_.slopes());
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  const GLfloat far = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &far);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_mesh();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_EQUAL);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_DST_COLOR, GL_SRC_COLOR);  // both factors: 2 * source * picture
+  draw_mesh();
+  glDisable(GL_BLEND);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_DEPTH_TEST);
 }
 
 MethodFacts Warp::facts() {
   MethodFacts facts;
   facts.gpu_bytes = grid_.gpu_bytes() + target_.gpu_bytes() +
                     sizeof(std::uint32_t) * static_cast<std::size_t>(index_count_);
+  if (picture_.name() != 0) facts.gpu_bytes += target_.gpu_bytes();
   return facts;
 }
 

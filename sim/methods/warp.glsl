@@ -5,6 +5,7 @@ layout(location = 0) uniform highp ivec4 warp_sizes;  // x: texels of the map; y
 // x: wanted edge, px; y: most vertices a post; z: 1 with detail; w: 1 where some post is unknown
 layout(location = 1) uniform highp vec4 warp_asks;
 layout(location = 2) uniform highp vec2 warp_ahead;  // east and north of the direction of v
+layout(location = 3) uniform highp float warp_upward;  // 1: row 0 of the target is the top; -1: the bottom
 
 // From the square's axes to east and north.
 vec2 from_square(vec2 p) {

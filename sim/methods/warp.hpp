@@ -33,7 +33,9 @@ namespace ridgeline::sim {
 /// - Heights are point samples of the bilinear surface; no filtered levels.
 /// - Beyond the finest level of the window blocks count as moderately steep, 600 m high.
 /// - Detail is value noise in place of the paper's textures; its height follows the slopes around.
-/// - A fragment over an unknown cell is unknown, whatever its vertices are.
+///   A vertex is displaced by the octaves it can carry; all that a pixel can show are lit, by a
+///   pass over the shaded picture (not part of a frame's time).
+/// - A fragment over an unknown cell, or in a triangle with an unknown corner, is unknown.
 std::unique_ptr<Method> make_warp(const MethodSpec& spec, std::string& problem);
 
 }  // namespace ridgeline::sim

@@ -1,6 +1,7 @@
 // One vertex of the warped geometry image; gl_VertexID counts them row by row.
 layout(binding = 6) uniform highp sampler2D positions_texture;
 out vec2 at;         // post coordinates below the vertex
+out float unknown;
 out float carried;   // octave of detail
 
 // Post coordinates below a position: as ray_point() of ray.glsl.
@@ -17,6 +18,8 @@ void main() {
   ivec2 vertex = ivec2(gl_VertexID % warp_sizes.y, gl_VertexID / warp_sizes.y);
   vec4 p = texelFetch(positions_texture, vertex, 0);
   at = posts_below(p.xyz);
-  carried = p.w;
+  unknown = p.w > 32.0 ? 1.0 : 0.0;
+  carried = p.w - 64.0 * unknown;
   gl_Position = clip_of(p.xyz);
+  gl_Position.y *= warp_upward;
 }

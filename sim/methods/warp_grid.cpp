@@ -14,6 +14,7 @@ namespace {
 
 // As in the shaders.
 constexpr int sizes_location = 0, asks_location = 1, ahead_location = 2;
+constexpr int upward_location = 3;
 constexpr int first_unit = 6, second_unit = 7, detail_unit = 8;
 constexpr int local_size = 8;
 constexpr double posts_with_detail = 64;  ///< vertices a post: the finest octave
@@ -89,16 +90,16 @@ Outcome WarpGrid::make(const MethodTerrain& terrain) {
   return make_bounds(surface_bounds(terrain));
 }
 
-void WarpGrid::set_uniforms(const RangeScene& scene) const {
+void WarpGrid::set_uniforms(bool any_unknown, bool top_first) const {
   const double most = settings_.detail ? posts_with_detail : settings_.posts;
   glUniform4i(sizes_location, settings_.map, settings_.grid, 0, 0);
   glUniform4f(asks_location, static_cast<float>(settings_.edge), static_cast<float>(most),
-              settings_.detail ? 1.0f : 0.0f, scene.report.window.void_posts > 0 ? 1.0f : 0.0f);
-  const glm::dvec2 way = ahead(scene);
-  glUniform2f(ahead_location, static_cast<float>(way.x), static_cast<float>(way.y));
+              settings_.detail ? 1.0f : 0.0f, any_unknown ? 1.0f : 0.0f);
+  glUniform2f(ahead_location, static_cast<float>(ahead_.x), static_cast<float>(ahead_.y));
+  glUniform1f(upward_location, top_first ? 1.0f : -1.0f);
 }
 
-glm::dvec2 WarpGrid::ahead(const RangeScene& scene) const {
+glm::dvec2 WarpGrid::ahead_of(const RangeScene& scene) const {
   constexpr double level_enough = 0.02;  // of the line of sight
   if (!settings_.turn) return {0, 1};
   const glm::dmat3& axes = scene.report.camera.enu_from_camera.columns;
@@ -109,9 +110,11 @@ glm::dvec2 WarpGrid::ahead(const RangeScene& scene) const {
 }
 
 void WarpGrid::warp(const RangeScene& scene) {
+  const bool any_unknown = scene.report.window.void_posts > 0;
+  ahead_ = ahead_of(scene);
   const GLuint maps = groups(settings_.map), grids = groups(settings_.grid);
   glUseProgram(importance_pass_.name());
-  set_uniforms(scene);
+  set_uniforms(any_unknown, true);
   bind(first_unit, heights_.name());
   bind(second_unit, slopes_.name());
   write_to(importance_, GL_RGBA32F);
@@ -119,28 +122,28 @@ void WarpGrid::warp(const RangeScene& scene) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 
   glUseProgram(blend_pass_.name());
-  set_uniforms(scene);
+  set_uniforms(any_unknown, true);
   bind(first_unit, importance_.name());
   write_to(blended_, GL_RGBA32F);
   glDispatchCompute(maps, maps, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 
   glUseProgram(rows_pass_.name());
-  set_uniforms(scene);
+  set_uniforms(any_unknown, true);
   bind(first_unit, blended_.name());
   write_to(rows_, GL_R32F);
   glDispatchCompute(maps, 1, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 
   glUseProgram(columns_pass_.name());
-  set_uniforms(scene);
+  set_uniforms(any_unknown, true);
   bind(second_unit, rows_.name());
   write_to(columns_, GL_R32F);
   glDispatchCompute(grids, 1, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 
   glUseProgram(mesh_pass_.name());
-  set_uniforms(scene);
+  set_uniforms(any_unknown, true);
   bind(first_unit, rows_.name());
   bind(second_unit, columns_.name());
   bind(detail_unit, slopes_.name());

@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/vec2.hpp>
+
 #include "sim/methods/raster_target.hpp"
 #include "sim/methods/warp_bounds.hpp"
 
@@ -22,11 +24,11 @@ class WarpGrid {
   Outcome make(const MethodTerrain& terrain);
   /// Warps the grid for one frame.
   void warp(const RangeScene& scene);
-  /// Sets the uniforms of warp.glsl in the program in use.
-  void set_uniforms(const RangeScene& scene) const;
-
-  /// Direction of v in a frame, east and north; of unit length.
-  [[nodiscard]] glm::dvec2 ahead(const RangeScene& scene) const;
+  /// Sets the uniforms of warp.glsl in the program in use, for the frame last warped.
+  /// `top_first`: whether row 0 of the target is the top of the picture.
+  void set_uniforms(bool any_unknown, bool top_first) const;
+  /// Direction of v in the frame last warped, east and north; of unit length.
+  [[nodiscard]] const glm::dvec2& ahead() const { return ahead_; }
 
   /// RGBA32F, map x map: vertices a unit of u and of v asked for; whether it is in sight.
   [[nodiscard]] GLuint importance() const { return blended_.name(); }
@@ -39,11 +41,13 @@ class WarpGrid {
 
  private:
   Outcome make_programs();
+  [[nodiscard]] glm::dvec2 ahead_of(const RangeScene& scene) const;
   Outcome make_bounds(const SurfaceBounds& bounds);
 
   WarpSettings settings_;
   Program importance_pass_, blend_pass_, rows_pass_, columns_pass_, mesh_pass_;
   Texture heights_, slopes_, importance_, blended_, rows_, columns_, positions_;
+  glm::dvec2 ahead_{0, 1};
   int block_columns_ = 0, block_rows_ = 0;
 };
 

@@ -27,7 +27,8 @@ void main() {
   if (any(greaterThanEqual(vertex, warp_sizes.yy))) return;
   vec2 en = ground_of(vertex);
   vec2 posts = posts_of_ground(en);
-  float height = bilinear_height(posts).x;
+  vec2 surface = bilinear_height(posts);
+  float height = surface.x;
   float carried = 0.0;
   if (warp_asks.z > 0.5) {
     float apart = 0.0;
@@ -38,5 +39,5 @@ void main() {
     carried = -log2(max(apart, 1.0e-3));
     height += carried_height(posts, carried);
   }
-  imageStore(positions_image, vertex, vec4(ground_position(en, height), carried));
+  imageStore(positions_image, vertex, vec4(ground_position(en, height), carried + 64.0 * surface.y));
 }

@@ -245,6 +245,7 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   if (picture.report.availability.mode != Mode::removed) {
     picture.range_m.resize(pixels);
     renderer_->read_range(picture.range_m, range_words_);
+    if (method_ != nullptr) method_->finish_picture(*renderer_);
   }
   renderer_->read_colour(rgba_);
   picture.rgb.resize(3 * pixels);

@@ -28,24 +28,39 @@ const Pose poses[] = {{{46.4, 8.5, 1600}, {0, -4, 20}},
 constexpr const char* finest = "hybrid:t=1e9,k=0.001,cell=32";
 constexpr const char* coarsest = "hybrid:t=1e9,k=1000,cell=32";
 
+/// Share of the pixels that a ray has found (the last bit of a distance says so) whose error is
+/// above 0.01 px, %.
+double percent_of_rays_off(const sim::Picture& picture, const JudgedPicture& judged) {
+  const auto words = bits_of(picture);
+  int off = 0, cast = 0;
+  for (const JudgedPixel& pixel : judged.pixels) {
+    const std::size_t at = static_cast<std::size_t>(pixel.v) * image.width_px + pixel.u;
+    if (!std::isfinite(picture.range_m[at]) || (words[at] & 1U) == 0) continue;
+    ++cast;
+    off += pixel.error_px > 0.01 ? 1 : 0;
+  }
+  EXPECT_GT(cast, 1000);
+  return 100.0 * off / cast;
+}
+
 TEST(Hybrid, error_on_smooth_land_is_small_and_falls_with_precision) {
   const OneTile land(smooth_m);
   MethodStand stand(land, image, range_m, first);
   for (const Pose& pose : poses) {
-    double coarse_px = 0, fine_px = 0;
-    for (const char* spec : {coarsest, "hybrid:t=1e9,cell=32", finest}) {
+    std::vector<double> off;
+    for (const char* spec : {coarsest, "hybrid:t=1e9,cell=32,k=2", finest}) {
       stand.use(spec);
       const sim::Picture picture = stand.draw(pose);
       const JudgedPicture judged = stand.judge(picture);
-      std::printf("[ hybrid ] %s: mean %.4f px, max %.3f px, over 1 px %.3f %%, cast %.1f %%\n",
-                  spec, judged.mean_px(), judged.max_px(), judged.percent_over(1),
-                  100 * picture.method.ray_cast_share);
-      EXPECT_GT(picture.method.ray_cast_share, 0.3);
-      if (spec == coarsest) coarse_px = judged.mean_px();
-      if (spec == finest) fine_px = judged.mean_px();
+      off.push_back(percent_of_rays_off(picture, judged));
+      std::printf("[ hybrid ] %s: %.2f %% of rays over 0.01 px; all: mean %.4f, max %.3f px\n",
+                  spec, off.back(), judged.mean_px(), judged.max_px());
+      EXPECT_LT(judged.mean_px(), 0.01);
     }
-    EXPECT_LT(fine_px, 0.25 * coarse_px);
-    EXPECT_LT(fine_px, 0.01);
+    EXPECT_LT(off[2], 0.3 * off[0]);
+    EXPECT_LE(off[2], off[1]);
+    EXPECT_LE(off[1], off[0]);
+    EXPECT_LT(off[2], 0.1);
   }
 }
 

@@ -29,14 +29,12 @@ class GridOnly final : public sim::Method {
   }
   void draw(const RangeScene& scene) override {
     grid.warp(scene);
-    ahead = grid.ahead(scene);
     target_.begin(scene.renderer);
     target_.end();
   }
   [[nodiscard]] sim::MethodFacts facts() override { return {}; }
 
   sim::WarpGrid grid;
-  glm::dvec2 ahead{0, 1};  ///< direction of v
 
  private:
   sim::RasterTarget target_;
@@ -95,7 +93,7 @@ Ratios ratios_of(const GridOnly& method) {
     asked.push_back(static_cast<double>(texel.x) * static_cast<double>(texel.y));
   }
   for (const glm::vec4& p : positions) {
-    obtained[static_cast<std::size_t>(texel_below(p, method.ahead, map))] += 1;
+    obtained[static_cast<std::size_t>(texel_below(p, method.grid.ahead(), map))] += 1;
   }
   const double scale =
       static_cast<double>(positions.size()) / std::accumulate(asked.begin(), asked.end(), 0.0);
@@ -156,8 +154,8 @@ TEST(WarpGrid, no_vertex_is_lost_and_lines_keep_their_order) {
         // Within the range nothing has been moved onto the rim: a line runs along v.
         const bool inside = std::hypot(p[at].x, p[at].y) < static_cast<float>(range_m);
         if (!inside || row + 1 == settings.grid) continue;
-        const double here = in_square(p[at], method.ahead).y;
-        backwards += in_square(p[at + 128], method.ahead).y < here ? 1 : 0;
+        const double here = in_square(p[at], method.grid.ahead()).y;
+        backwards += in_square(p[at + 128], method.grid.ahead()).y < here ? 1 : 0;
       }
     }
     EXPECT_EQ(backwards, 0);

@@ -53,7 +53,8 @@ TEST(Warp, unknown_ground_stays_unknown_and_known_ground_known) {
     std::printf("[ unknown ] %s: %d unknown, %d lost, %d invented\n", spec, count.unknown,
                 count.lost, count.invented);
     EXPECT_GT(count.unknown, 1000);
-    EXPECT_LT(count.lost + count.invented, count.unknown / 20);  // along the rim
+    EXPECT_LT(count.lost, count.unknown / 50);
+    EXPECT_LT(count.invented, count.unknown / 5);  // triangles over the rim are unknown
   }
 }
 
@@ -118,17 +119,29 @@ TEST(Warp, detail_changes_rough_land_leaves_the_sea_and_says_so) {
   const sim::Picture detailed = over_rough.draw(low);
   EXPECT_EQ(plain_words.find("not the data"), std::string::npos);
   EXPECT_NE(words.find("not the data"), std::string::npos);
-  int differ = 0;
+  int moved = 0, lit = 0, sky = 0;
   for (std::size_t i = 0; i < plain.range_m.size(); ++i) {
     const double a = plain.range_m[i], b = detailed.range_m[i];
-    if (std::isfinite(a) && std::isfinite(b)) differ += std::abs(a / b - 1) > 1e-4 ? 1 : 0;
+    const int change = std::abs(plain.rgb[3 * i + 1] - detailed.rgb[3 * i + 1]);
+    if (std::isfinite(a) && std::isfinite(b)) moved += std::abs(a / b - 1) > 1e-4 ? 1 : 0;
+    if (std::isfinite(a) && std::isfinite(b)) lit += change > 3 ? 1 : 0;
+    if (std::isinf(a) && std::isinf(b)) sky += change > 0 ? 1 : 0;
   }
-  EXPECT_GT(differ, 2000);
+  EXPECT_GT(moved, 2000);
+  EXPECT_GT(lit, 5000);
+  EXPECT_EQ(sky, 0);
 
   MethodStand over_sea(sea, image, range_m, first);
+  over_sea.use("warp");
+  const sim::Picture calm = over_sea.draw(low);
   over_sea.use("warp:detail=1");
-  const JudgedPicture judged = over_sea.judge(over_sea.draw(low));
-  EXPECT_LT(judged.mean_px(), 0.02);
+  const sim::Picture as_calm = over_sea.draw(low);
+  int changed = 0;
+  for (std::size_t i = 0; i < calm.rgb.size(); ++i) {
+    changed += std::abs(calm.rgb[i] - as_calm.rgb[i]) > 3 ? 1 : 0;  // blending rounds
+  }
+  EXPECT_LT(changed, 100);  // where a grid line falls upon the next pixel
+  EXPECT_LT(over_sea.judge(as_calm).mean_px(), 0.02);
 }
 
 TEST(Warp, says_which_setting_is_wrong) {
