@@ -9,14 +9,15 @@ namespace ridgeline::sim {
 /// inside it. The level of detail follows from the distance alone; no bound.
 ///
 /// Sources: Losasso, Hoppe: Geometry clipmaps: terrain rendering using nested regular grids.
-/// SIGGRAPH 2004 (levels, transition regions, levels left out under a high eye); Asirvatham, Hoppe:
-/// Terrain rendering using GPU-based geometry clipmaps. GPU Gems 2, chapter 2, 2005 (footprints,
-/// heights fetched by the vertex, blending in the vertex, culling a block). Followed: n = 2^k - 1,
-/// a level's edge on vertices of the next coarser one; twelve blocks of m x m vertices a ring, four
-/// fix-ups, an L-shaped trim, for the finest level four more blocks and a second L; blending over
-/// n / 10 vertices by max(|x - eye| ...) so that the outer edge is the coarser level's; triangles
-/// without area over the T-junctions of that edge; view frustum culling of each footprint (CPU); a
-/// level is left out while the eye is higher than 0.4 n of its steps.
+/// SIGGRAPH 2004; Asirvatham, Hoppe: Terrain rendering using GPU-based geometry clipmaps. GPU Gems
+/// 2, chapter 2, 2005. Followed: a prefiltered pyramid and levels of n x n vertices, n = 2^k - 1,
+/// a level's edge on vertices of the next coarser one (2.1); levels of less extent than 2.5 times
+/// the height of the eye over the ground are left out, the finest one left is a full square
+/// (2.3.1); twelve blocks of m x m vertices a ring, four fix-ups, an L-shaped trim, for the finest
+/// level four more blocks and a second L, triangles without area over the T-junctions of the outer
+/// edge (2.3.2); culling of each footprint by the view frustum (CPU); blending over n / 10 vertices
+/// by the larger of the distances along x and y, so that the outer edge is the coarser level's.
+/// The chapter was read in part, the paper of 2004 in its abstract and as the chapter tells it.
 ///
 /// Settings: `grid=255`: vertices a side; 63, 127, 255 or 511.
 ///
@@ -32,10 +33,9 @@ namespace ridgeline::sim {
 /// - Vertices go through the inverse of the frame's ground map onto the curved Earth; fragments
 ///   beyond the range are left out; vertices beyond what the window holds (and the range) have the
 ///   nearest height held.
-/// - The papers enable a level by its whole extent in view; here every level to the coarsest is
-///   active, less those left out under a high eye.
+/// - The ground under the eye is the mean of a square of 4 x 4 posts, taken when the window moves;
+///   the chapter reads one post back.
 /// - A vertex whose filter meets an unknown post is unknown, a quad with such a vertex too (both
-/// its
 ///   triangles); they stand at the highest floor.
 std::unique_ptr<Method> make_clipmap(const MethodSpec& spec, std::string& problem);
 

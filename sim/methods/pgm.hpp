@@ -14,6 +14,7 @@ namespace ridgeline::sim {
 /// rays meets the plane, where the camera of the picture does not; the pyramid of averages, its
 /// level chosen by the distance from a vertex to its farthest neighbour; blending with the parent
 /// level by the fraction of the level; one draw call over a fixed index buffer.
+/// Known to us by its abstract and by what later papers tell of it, so no sections are named.
 ///
 /// Settings: `grid=512x256` vertices (columns x rows, 16..2048 each; the paper's own are 150x600 to
 /// 400x1600).
@@ -25,9 +26,8 @@ namespace ridgeline::sim {
 /// - The grid covers, of the sampling camera's image, the rectangle that ground in the picture can
 ///   need (sim/methods/sampling_camera.hpp), not the whole image: denser above, and the foreground
 ///   below the picture's edge is there. An auxiliary camera has no roll.
-/// - The pyramid ends 6 levels above the coarsest of the terrain window (one node is 64 of its
-/// posts
-///   a side); it is built whole, on the GPU, when the window moves: the paper updates it in L and F
+/// - The pyramid ends 6 levels above the coarsest of the terrain window (nodes of 64 of its posts a
+///   side); it is built whole, on the GPU, when the window moves: the paper updates it in L and F
 ///   shapes during the flight. Of several window levels the finest that holds the nodes is read.
 /// - Heights of a level are interpolated bilinearly by our own arithmetic, eight fetches a vertex;
 ///   the paper has two. With the nearest node alone the foreground is all steps: 5 px of mean error
