@@ -18,11 +18,8 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
-    {"loffler", make_loffler},
-    {"raycast", nullptr},
-    {"mesh", make_mesh},
-    {"embree", make_embree},
-    {"ridgeline", nullptr},
+    {"loffler", make_loffler}, {"raycast", nullptr},   {"mesh", make_mesh},
+    {"embree", make_embree},   {"ridgeline", nullptr},
 };
 
 const Entry* find(std::string_view name) {
