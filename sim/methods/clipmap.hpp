@@ -27,9 +27,8 @@ namespace ridgeline::sim {
 ///   the cache, and the prefiltered pyramid (weights 1 2 1 each way, vertices of a level stand on
 ///   vertices of the finer one) is built whole, on the GPU, when the window moves.
 /// - A level whose vertices the finest window level no longer holds is filtered from the next one.
-/// - Heights are floats from those textures, not the papers' packed fine and coarse pair; the
-/// vertex
-///   interpolates the coarser level itself.
+/// - Heights are floats from those textures, not the papers' packed fine and coarse pair: the
+///   vertex interpolates the coarser level itself.
 /// - Vertices go through the inverse of the frame's ground map onto the curved Earth; fragments
 ///   beyond the range are left out; vertices beyond what the window holds (and the range) have the
 ///   nearest height held.
