@@ -45,8 +45,11 @@ class Renderer {
     GLuint posts = 0;    ///< array texture of posts, one layer a level
     GLuint highest = 0;  ///< array texture of the maxima, as shaders/terrain.glsl reads it
     GLuint range = 0;    ///< R32UI target: distance as float bits, as ray_cast.frag writes it
+    GLuint colour = 0;   ///< RGBA8 target of shade(); row 0 is the bottom of the picture
   };
-  [[nodiscard]] Names names() const { return {posts_.name(), highest_.name(), range_.name()}; }
+  [[nodiscard]] Names names() const {
+    return {posts_.name(), highest_.name(), range_.name(), colour_.name()};
+  }
   /// Begins a range picture that others draw: frame block, window and counters are bound.
   void begin_range(const FrameBlocks& blocks);
   /// Ends it: counts its pixels as after the module's own passes.

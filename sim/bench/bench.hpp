@@ -8,8 +8,10 @@ namespace ridgeline::sim {
 
 struct BenchOptions {
   SceneOptions scene;
-  std::string log_file;     ///< views from a flight; empty: fixed views over the middle tile
-  std::string json_file;    ///< empty: only the table
+  std::vector<MethodSpec> methods;                 ///< empty: default_bench_methods()
+  std::string log_file;                            ///< views from a flight; empty: fixed views
+  int log_views = 8;                               ///< so many, spaced over the flight
+  std::string json_file, markdown_file, svg_file;  ///< empty: not written
   int repeats = 7;          ///< frames a view and method, after one that is not counted
   int judged_pixels = 400;  ///< a view and method, judged by the oracle
 };
@@ -20,16 +22,31 @@ struct BenchView {
   FrameInput input;
 };
 
-/// Fixed views round the middle of a terrain folder: grazing low, valley, high, steep down, banked,
-/// wide horizon. Empty when the folder holds no known post there.
+/// The published methods and ours with settings that span their range, as `--methods` takes them.
+[[nodiscard]] std::vector<MethodSpec> default_bench_methods();
+
+/// Fixed views of a terrain folder: grazing low, valley, high, steep down, banked, wide horizon.
+/// The valley is the lowest ground near the middle of the middle tile, the rest stands over that
+/// middle. Empty when the folder holds no known post there.
 std::vector<BenchView> fixed_views(const std::string& terrain_folder);
 
 /// Evenly spaced moments of a recorded flight at which terrain can be drawn.
 std::vector<BenchView> log_views(const std::string& log_file, const BusProfile& profile, int count);
 
 /// Measures every method at every view, the methods interleaved frame by frame so that noise hits
-/// all alike, and judges each with the oracle. Prints a Markdown table.
-/// Outcome: the message names the file and what is wrong with it.
+/// all alike, and judges each with the oracle. Prints a Markdown table; writes the files asked for.
+/// Outcome: the message names the file (or the method) and what is wrong with it.
 Outcome bench(const BenchOptions& options);
+
+/// The grids, settings and picture size of a paper over the height map of Puget Sound, its
+/// published figures beside ours. Views: `log_views` of a circle of 8 km over the foothills west of
+/// Mount Rainier, 600 m over the ground, 6 degrees down, display range 50 km. Outcome: the message
+/// names the file or the word and what is wrong with it.
+Outcome bench_paper(const BenchOptions& options, const std::string& paper,
+                    const std::string& puget_file);
+
+struct PugetMap;
+/// Its views.
+[[nodiscard]] std::vector<BenchView> puget_views(const PugetMap& map, int count);
 
 }  // namespace ridgeline::sim

@@ -29,6 +29,23 @@ bool middle_post(const HeightTile& tile, GeodeticPosition& place) {
   return false;
 }
 
+/// The lowest known post of the middle third of a tile: a valley, or the sea.
+GeodeticPosition lowest_post(const HeightTile& tile, const GeodeticPosition& otherwise) {
+  const PostGrid& grid = tile.grid;
+  std::vector<float> row(static_cast<std::size_t>(grid.columns));
+  GeodeticPosition lowest = otherwise;
+  for (int r = grid.rows / 3; r < 2 * grid.rows / 3; ++r) {
+    read_posts(tile, r, 0, row);
+    for (int c = grid.columns / 3; c < 2 * grid.columns / 3; ++c) {
+      const auto height_m = static_cast<double>(row[static_cast<std::size_t>(c)]);
+      if (!(height_m < lowest.height_m)) continue;
+      lowest = {grid.south_deg + r * grid.latitude_step_deg,
+                grid.west_deg + c * grid.longitude_step_deg, height_m};
+    }
+  }
+  return lowest;
+}
+
 }  // namespace
 
 std::vector<BenchView> fixed_views(const std::string& terrain_folder) {
@@ -40,17 +57,20 @@ std::vector<BenchView> fixed_views(const std::string& terrain_folder) {
   GeodeticPosition place;
   const auto tiles = folder.tiles();
   if (tiles.empty() || !middle_post(tiles[tiles.size() / 2], place)) return {};
+  const GeodeticPosition valley = lowest_post(tiles[tiles.size() / 2], place);
   struct Fixed {
     const char* name;
+    bool in_valley;
     double over_ground_m, roll_deg, pitch_deg, heading_deg;
   };
-  constexpr Fixed fixed[] = {{"low", 100, 0, -2, 30},      {"valley", 400, 0, -4, 150},
-                             {"high", 3000, 0, -10, 250},  {"steep down", 4000, 0, -60, 10},
-                             {"banked", 1500, 40, -5, 80}, {"wide horizon", 9000, 0, -3, 330}};
+  constexpr Fixed fixed[] = {
+      {"low", false, 100, 0, -2, 30},      {"valley", true, 200, 0, -1, 150},
+      {"high", false, 3000, 0, -10, 250},  {"steep down", false, 4000, 0, -60, 10},
+      {"banked", false, 1500, 40, -5, 80}, {"wide horizon", false, 9000, 0, -3, 330}};
   std::vector<BenchView> views;
   for (const Fixed& f : fixed) {
     FrameInput input;
-    input.eye = place;
+    input.eye = f.in_valley ? valley : place;
     input.eye.height_m += f.over_ground_m;
     input.attitude = {f.roll_deg, f.pitch_deg, f.heading_deg};
     views.push_back({f.name, input});

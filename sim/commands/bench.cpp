@@ -10,14 +10,41 @@ namespace {
 
 struct BenchArguments : SceneArguments {
   BenchOptions options;
+  std::string methods, paper, puget_file;
 };
 
+/// What is missing or too much; empty when nothing is.
+std::string wrong_combination(const BenchArguments& arguments) {
+  if (arguments.paper.empty()) {
+    if (!arguments.puget_file.empty()) return "--puget goes with --paper";
+    return arguments.scene.terrain_folder.empty() ? "--terrain is required (see --help)" : "";
+  }
+  if (arguments.puget_file.empty()) return "--paper needs --puget FILE";
+  const bool own_scene = arguments.scene.terrain_folder.empty() && arguments.methods.empty() &&
+                         arguments.options.log_file.empty();
+  return own_scene ? "" : "--paper brings its own terrain, views and methods";
+}
+
 int run_bench(BenchArguments& arguments) {
+  if (const std::string wrong = wrong_combination(arguments); !wrong.empty()) {
+    return fail(wrong_usage, "bench: " + wrong);
+  }
   if (const std::string wrong = complete(arguments); !wrong.empty()) {
     return fail(wrong_usage, wrong);
   }
+  if (!arguments.methods.empty()) {
+    const Outcome parsed = parse_methods(arguments.methods, arguments.options.methods);
+    if (!parsed.ok()) return fail(wrong_usage, "--methods: " + parsed.message);
+    for (const MethodSpec& spec : arguments.options.methods) {
+      if (const std::string wrong = method_problem(spec); !wrong.empty()) {
+        return fail(wrong_usage, "--methods: " + wrong);
+      }
+    }
+  }
   arguments.options.scene = arguments.scene;
-  const Outcome measured = bench(arguments.options);
+  const Outcome measured = arguments.paper.empty() ? bench(arguments.options)
+                                                   : bench_paper(arguments.options, arguments.paper,
+                                                                 arguments.puget_file);
   return measured.ok() ? done : fail(bad_input, measured.message);
 }
 
@@ -28,8 +55,24 @@ void add_bench_command(CLI::App& program, int& status) {
   BenchOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("bench", "measure speed against error");
   add_scene_options(*command, *arguments);
+  command->remove_option(command->get_option("--method"));
+  command->get_option("--terrain")->required(false);
+  command
+      ->add_option("--paper", arguments->paper,
+                   "redo a paper's table over the map of Puget Sound: its size, grids, settings")
+      ->check(CLI::IsMember({"loffler", "livny", "ammann", "dachsbacher"}));
+  command->add_option("--puget", arguments->puget_file,
+                      "that map: a square 16-bit grey PNG, 0.1 m a unit");
+  command->add_option("--methods", arguments->methods,
+                      "what to measure: a,b:setting=value,c; all there are if not given");
   command->add_option("--log", options.log_file, "take the views from a recorded flight");
+  command
+      ->add_option("--views", options.log_views, "views of the flight or the paper, spaced over it")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
   command->add_option("--json", options.json_file, "file for the rows");
+  command->add_option("--markdown", options.markdown_file, "file for the table");
+  command->add_option("--svg", options.svg_file, "file for a plot of speed against error");
   command->add_option("--repeats", options.repeats, "counted frames a view and method")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

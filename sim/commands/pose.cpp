@@ -33,15 +33,21 @@ int run_pose(PoseArguments& arguments) {
   input.attitude = arguments.attitude;
   const Picture picture = session.draw(input, true);
   tell_problems(session);
+  if (!picture.problem.ok()) return fail(bad_input, picture.problem.message);
   if (!arguments.dump_folder.empty()) {
     Outcome written = make_folder(arguments.dump_folder);
     if (written.ok()) written = write_dump(arguments.dump_folder, 0, picture, session.geoid_name());
     if (!written.ok()) return fail(bad_input, written.message);
   }
   const FrameReport& report = picture.report;
-  std::printf("%s: bound %.3f px, %d planes x %d rows, %.1f %% of pixels ray cast, %.1f ms",
-              std::string(mode_word(report.availability.mode)).c_str(), report.bound_px,
-              report.planes, report.rows, 100.0 * picture.counts.ray_cast_share, picture.cpu_ms);
+  std::printf("%s: ", std::string(mode_word(report.availability.mode)).c_str());
+  if (is_own_method(arguments.scene.method)) {
+    std::printf("bound %.3f px, %d planes x %d rows", report.bound_px, report.planes, report.rows);
+  } else {
+    std::printf("%s, no bound, built in %.1f ms", arguments.method.c_str(), session.build_ms());
+  }
+  std::printf(", %.1f %% of pixels ray cast, %.1f ms", 100.0 * picture.counts.ray_cast_share,
+              picture.cpu_ms);
   for (const Reason reason : report.availability.reasons) {
     std::printf(", %s", std::string(reason_text(reason)).c_str());
   }

@@ -22,10 +22,31 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--range", arguments.scene.settings.range_m, "display range, metres")
       ->check(a_number())
       ->capture_default_str();
-  command.add_option("--method", arguments.method, "ridgeline, or raycast (every pixel)")
-      ->check(CLI::IsMember({"ridgeline", "raycast"}))
+  command
+      .add_option("--method", arguments.method,
+                  "what draws, NAME or NAME:setting=value,...; docs/commands.md lists them")
       ->capture_default_str();
 }
+
+namespace {
+
+/// Checks the method and puts it into the scene; an error message, or empty.
+std::string take_method(SceneArguments& arguments) {
+  MethodSpec spec;
+  if (const Outcome parsed = parse_method(arguments.method, spec); !parsed.ok()) {
+    return parsed.message;
+  }
+  std::string problem;
+  if (is_own_method(spec)) {
+    problem = apply_own_method(spec, arguments.scene.settings);
+  } else {
+    static_cast<void>(make_method(spec, problem));
+  }
+  if (problem.empty()) arguments.scene.method = spec;
+  return problem;
+}
+
+}  // namespace
 
 std::string complete(SceneArguments& arguments) {
   FrameSettings& settings = arguments.scene.settings;
@@ -35,7 +56,7 @@ std::string complete(SceneArguments& arguments) {
     return "--size " + arguments.size + ": not of the form WxH";
   }
   settings.image = {width, height, arguments.field_of_view_deg};
-  settings.cast_every_pixel = arguments.method == "raycast";
+  if (std::string wrong = take_method(arguments); !wrong.empty()) return "--method: " + wrong;
   const auto made = camera({}, settings.image);
   if (!made) return "--size or --hfov: " + std::string(fault_text(made.fault()));
   const double least_px = smallest_error_px(made.value());

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/frame/frame_pipeline.hpp"
@@ -34,7 +35,9 @@ struct MethodFacts {
 /// One published way to draw terrain, drawing the range picture of a frame into the renderer's own
 /// target from the renderer's own posts, on the same curved Earth. Positions on the ground go
 /// through the frame's ground map (shaders/terrain.glsl), so that what differs is the method.
-/// A context must be current whenever a member is called.
+/// It is made without a context; one is current whenever a member is called. GL state it may leave
+/// as it likes: bound program, vertex array, framebuffer, textures of units >= 8. Of the rest, what
+/// RasterTarget::begin() and end() set.
 class Method {
  public:
   virtual ~Method() = default;
@@ -47,6 +50,9 @@ class Method {
   /// Draws Renderer::names().range: R32UI, distance along the ray as float bits; 1e30 sky, negative
   /// unknown; every pixel is written. Row 0 of the target is the top of the picture.
   virtual void draw(const RangeScene& scene) = 0;
+  /// Draws over the shaded colour target what a range picture cannot show; after a frame's time,
+  /// and only where its picture is wanted. The blocks and textures of shade() are still bound.
+  virtual void finish_picture(const Renderer& renderer) { static_cast<void>(renderer); }
   /// Of the last frame. May wait for the GPU; not called in the timed part of a frame.
   [[nodiscard]] virtual MethodFacts facts() = 0;
 };
@@ -57,13 +63,34 @@ struct MethodSpec {
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
-/// Outcome: the message says which word is wrong.
+/// Reads one spec. Outcome: the message says which word is wrong.
 Outcome parse_method(std::string_view text, MethodSpec& spec);
 
-/// Makes a method; null with a message in `problem` for an unknown name or setting.
+/// Reads a list: `a,b:x=1,y=2,c`. A piece with `=` and no `:` before it goes on with the method
+/// before it. Outcome: the message says which word is wrong.
+Outcome parse_methods(std::string_view text, std::vector<MethodSpec>& specs);
+
+/// The spec as parse_method reads it.
+[[nodiscard]] std::string method_text(const MethodSpec& spec);
+
+/// Makes a method; null with a message in `problem` for an unknown name, a wrong setting, and a
+/// method that this build lacks (the message then holds the word `absent`).
 std::unique_ptr<Method> make_method(const MethodSpec& spec, std::string& problem);
 
-/// Names that make_method knows, in the order of the tables.
+/// Whether the name is one of the module's own ways to draw, which no Method draws: `ridgeline`
+/// and `raycast` (every pixel by the ray cast pass).
+[[nodiscard]] bool is_own_method(const MethodSpec& spec);
+
+/// Puts such a spec into the settings of a frame. Settings: `error` (px) of both; `planes` and
+/// `rows`, the spacing of the grid (px), of ridgeline.
+/// Result: empty, or which word is wrong; the settings are then as they were.
+[[nodiscard]] std::string apply_own_method(const MethodSpec& spec, FrameSettings& settings);
+
+/// What is wrong with a spec: its name or its settings; empty when a method of this or another
+/// build can be made from it. Needs no context.
+[[nodiscard]] std::string method_problem(const MethodSpec& spec);
+
+/// Every name, in the order of the tables.
 std::vector<std::string_view> method_names();
 
 }  // namespace ridgeline::sim

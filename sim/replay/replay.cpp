@@ -147,6 +147,7 @@ Outcome replay(const ReplayOptions& options) {
     const std::int64_t now_ns = start_ns + static_cast<std::int64_t>(std::llround(at_s * 1e9));
     const OwnshipPose pose = player.advance(now_ns);
     const Picture picture = session.draw(input_of(pose, now_ns, options, derived), want_pixels);
+    if (!picture.problem.ok()) return picture.problem;
     for (const std::string& problem : session.new_problems()) {
       std::fprintf(stderr, "\nridgeline: %s\n", problem.c_str());
     }

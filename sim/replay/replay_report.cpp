@@ -115,8 +115,9 @@ void ReplayReport::add(int index, const Picture& picture) {
   const bool removed = report.availability.mode == Mode::removed;
   removed_ += removed ? 1 : 0;
   degraded_ += report.availability.mode == Mode::degraded ? 1 : 0;
+  const bool promised = !removed && report.bound_px > 0;  // methods without a proof promise none
   frame["bound_px"] =
-      removed ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(report.bound_px);
+      promised ? nlohmann::ordered_json(report.bound_px) : nlohmann::ordered_json(nullptr);
   frame["range_m"] = report.range_m;
   frame["cpu_ms"] = picture.cpu_ms;
   const auto& ms = picture.counts.pass_ms;
@@ -144,7 +145,7 @@ void ReplayReport::add(int index, const Picture& picture) {
   if (report.availability.mode == Mode::svs && first_svs_ms_ < 0) {
     first_svs_ms_ = picture.since_start_ms;
   }
-  bounds_held_ += report.bound_px <= picture.wanted_px ? 1 : 0;
+  bounds_held_ += promised && report.bound_px <= picture.wanted_px ? 1 : 0;
   cpu_ms_.push_back(picture.cpu_ms);
   gpu_ms_.push_back(gpu_ms);
   largest_bound_px_ = std::max(largest_bound_px_, report.bound_px);

@@ -1,5 +1,7 @@
 #include "sim/session/session.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +17,12 @@ namespace {
 double now_ms() {
   const auto time = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double, std::milli>(time).count();
+}
+
+double process_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
 }
 
 const double program_start_ms = now_ms();
@@ -41,6 +49,12 @@ bool same_posts(const PostGrid& edit, const PostGrid& tile) {
   const double column = (edit.west_deg - tile.west_deg) / tile.longitude_step_deg;
   return overlaps(box, tile) && std::abs(row - std::round(row)) < same_post &&
          std::abs(column - std::round(column)) < same_post;
+}
+
+void draw_with_method(void* method, const RangeScene& scene) {
+  // No grid pass; a method with a ray cast of its own may stamp its start again.
+  scene.renderer.timer().stamp(static_cast<int>(Pass::ray_cast));
+  static_cast<Method*>(method)->draw(scene);
 }
 
 }  // namespace
@@ -71,6 +85,11 @@ Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first
   if (Outcome opened = open_edits(); !opened.ok()) return opened;
   if (Outcome opened = open_renderer(); !opened.ok()) return opened;
   open_terrain(far_floor);
+  if (options.method.name.empty() || is_own_method(options.method)) return {};
+  std::string problem;
+  auto method = make_method(options.method, problem);
+  if (method == nullptr) return {Fault::file_malformed, problem};
+  use(&keep(std::move(method)));
   return {};
 }
 
@@ -197,21 +216,34 @@ Session::~Session() {
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_, {ray_tiles_, tile_steepness_, tile_shapes_}};
-  double start_ms = 0;
+  double start_ms = 0, start_core_ms = 0;
   surface_->make_current();
+  picture.problem = prepare(input);
+  if (!picture.problem.ok()) {
+    picture.report.availability.mode = Mode::removed;
+    return picture;
+  }
+  FrameSettings settings = options_.settings;
+  if (method_ != nullptr) settings.instead = {draw_with_method, method_};
   {
     const HeapSection no_heap;  // the frame path of the module; what follows is the desktop's
     const GlSection no_new_objects;
     apply_edits(static_cast<double>(input.time_ns) * 1e-9);
     settle_if_due(input);
+    start_core_ms = process_ms();
     start_ms = now_ms();
-    picture.report = draw_frame(options_.settings, input, *terrain_, worker_->refused_count(),
-                                tables, *renderer_);
+    picture.report =
+        draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
   }
   picture.cpu_ms = now_ms() - start_ms;
+  picture.core_ms = process_ms() - start_core_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
   picture.take = worker_->last_take();
+  if (method_ != nullptr && picture.report.availability.mode != Mode::removed) {
+    picture.method = method_->facts();
+    picture.counts.ray_cast_share = picture.method.ray_cast_share;
+  }
   picture.wanted_px = options_.settings.error_px;
   picture.wanted_range_m = options_.settings.range_m;
   if (!want_pixels) return picture;
@@ -219,6 +251,7 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   if (picture.report.availability.mode != Mode::removed) {
     picture.range_m.resize(pixels);
     renderer_->read_range(picture.range_m, range_words_);
+    if (method_ != nullptr) method_->finish_picture(*renderer_);
   }
   renderer_->read_colour(rgba_);
   picture.rgb.resize(3 * pixels);

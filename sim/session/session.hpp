@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "platform/geoid_file.hpp"
 #include "platform/terrain_folder.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
+#include "sim/methods/method.hpp"
 #include "sim/output/outcome.hpp"
 #include "sim/terrain_input/edit_list.hpp"
 
@@ -23,6 +25,7 @@ struct SceneOptions {
   std::string coverage_file;   ///< which missing tiles are sea; empty: none
   std::string edit_file;       ///< terrain that changes during the run; empty: none
   FrameSettings settings;
+  MethodSpec method;  ///< what draws; no name: the module's own passes, as `settings` has them
   /// When terrain counts as there: `settled` before every picture (single views), `in_step` so many
   /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever
   /// the disk is done.
@@ -36,7 +39,10 @@ struct SceneOptions {
 struct Picture {
   FrameReport report;
   FrameCounts counts;
+  Outcome problem;            ///< a method could not be built: nothing was drawn
+  MethodFacts method;         ///< of the method that drew it; nothing for the module's own passes
   double cpu_ms = 0;          ///< wall time of draw_frame and of waiting for it
+  double core_ms = 0;         ///< CPU time of all threads of the program over that
   double since_start_ms = 0;  ///< from the start of the program to the end of this frame
   BlockWorker::TakeTimes take;
   double wanted_px = 0;  ///< the configured error bound and range
@@ -58,7 +64,19 @@ class Session {
   /// Outcome: the message names the file and what is wrong with it.
   Outcome open(const SceneOptions& options, const GeodeticPosition& first);
 
-  /// Draws one frame and waits for it.
+  /// Takes a method in; it stays until the session ends. Draw with it after use().
+  Method& keep(std::unique_ptr<Method> method);
+  /// Draws with a kept method from now on; null: with the module's own passes again.
+  void use(Method* method) { method_ = method; }
+  /// Applies edits, settles the terrain window round the eye and builds the method in use from it,
+  /// where the window is not the one it was built from. Nothing to do for the module's own passes.
+  /// draw() calls it; call it before where its time must not be part of a measurement.
+  Outcome prepare(const FrameInput& input);
+  /// Time of the last build of the method in use, ms; the settling of the window not counted.
+  [[nodiscard]] double build_ms() const;
+
+  /// Draws one frame and waits for it. A method's frame contains all it does for the frame, with
+  /// the module's own shading; its window is always settled.
   /// `want_pixels`: read range and colour back (not part of cpu_ms).
   Picture draw(const FrameInput& input, bool want_pixels);
 
@@ -86,6 +104,22 @@ class Session {
   Outcome open_renderer();
   void open_terrain(double far_floor);
   void warm_up();
+  [[nodiscard]] MethodTerrain method_terrain();
+
+  /// The state of the terrain window that a method was built from.
+  struct WindowState {
+    std::uint64_t blocks = 0;
+    std::size_t edits = 0;
+    Chart chart = Chart::geographic;
+    std::array<PostRect, max_levels> drawable{};
+    friend bool operator==(const WindowState&, const WindowState&) = default;
+  };
+  [[nodiscard]] WindowState window_state() const;
+  struct Kept {
+    std::unique_ptr<Method> method;
+    std::optional<WindowState> built;
+    double build_ms = 0;
+  };
 
   SceneOptions options_;
   GeotiffReader geotiff_;
@@ -115,6 +149,10 @@ class Session {
   std::vector<std::uint8_t> tile_shapes_;
   std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
+  std::vector<Kept> methods_;
+  Method* method_ = nullptr;  ///< in use
+  std::vector<float> method_posts_;
+  std::optional<WindowState> method_posts_of_;
 };
 
 /// Writes `N.json`, `N_range.npy` (unless removed) and `N_color.png` of contract section 3.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,7 +62,11 @@ std::vector<std::string> frame_faults(const Frame& frame) {
     return faults;
   }
   if (!frame.bound_px || !(*frame.bound_px > 0) || !std::isfinite(*frame.bound_px)) {
-    faults.emplace_back("a drawn frame carries no bound");
+    const bool unproven =
+        std::find(frame.reasons.begin(), frame.reasons.end(), "unproven") != frame.reasons.end();
+    faults.emplace_back(unproven ? "a drawn frame carries no bound: the method that drew it "
+                                   "promises none, so there is nothing to verify"
+                                 : "a drawn frame carries no bound");
   }
   if (frame.bound_px && frame.proven_px && !(*frame.proven_px <= *frame.bound_px)) {
     faults.emplace_back("proven_px is above the bound");

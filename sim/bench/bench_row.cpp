@@ -1,0 +1,187 @@
+#include "sim/bench/bench_row.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "sim/output/percentile.hpp"
+
+namespace ridgeline::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Json row_json(const BenchRow& row) {
+  Json json;
+  json["method"] = row.method;
+  json["params"] = row.params;
+  json["terrain"] = row.terrain;
+  json["view"] = row.view;
+  json["epsilon_px"] = or_null(row.epsilon_px);
+  json["bound_px"] = or_null(row.bound_px);
+  json["frame_ms_median"] = row.median_ms();
+  json["frame_ms_p99"] = percentile(row.frame_ms, 0.99);
+  json["frame_ms_max"] = percentile(row.frame_ms, 1.0);
+  json["core_ms"] = percentile(row.core_ms, 0.5);
+  json["gpu_ms"] = or_null(row.median_gpu_ms());
+  json["error_px_max"] = row.error.worst_px;
+  json["error_px_max_is_larger"] = row.error.worst_is_larger;
+  json["error_px_mean"] = row.error.mean_px();
+  json["error_px_p99"] = percentile(row.error.errors_px, 0.99);
+  json["percent_over_1px"] = row.error.percent_over_px(1.0);
+  json["wrong_class_pixels"] = row.error.wrong_class;
+  json["judged_pixels"] = row.error.errors_px.size();
+  json["ray_cast_share"] = row.ray_cast_share;
+  json["steps_per_pixel"] = or_null(row.mean_steps());
+  json["gpu_bytes"] = row.gpu_bytes;
+  json["heap_bytes"] = row.heap_bytes;
+  json["build_ms"] = row.build_ms;
+  json["frames"] = row.frame_ms.size();
+  json["removed_views"] = row.removed_views;
+  json["spec"] = row.spec;
+  return json;
+}
+
+__attribute__((format(printf, 2, 3))) void add(std::string& text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
+  constexpr double mib = 1.0 / (1024.0 * 1024.0);
+  const auto number = [](const std::optional<double>& value, const char* format) {
+    char word[32] = "–";
+    if (value) std::snprintf(word, sizeof word, format, *value);
+    return std::string(word);
+  };
+  add(text, "| %s | %s | %.1f | %.1f | %.1f | %.2f | %.1f | %s |", row.spec.c_str(),
+      row.view.c_str(), row.median_ms(), percentile(row.frame_ms, 0.99),
+      percentile(row.frame_ms, 1.0), fastest_ms > 0 ? row.median_ms() / fastest_ms : 0.0,
+      percentile(row.core_ms, 0.5), number(row.median_gpu_ms(), "%.1f").c_str());
+  add(text, " %s | %s%.3f | %.3f | %.4f | %.2f | %d | %.0f | %s | %.1f | %.1f | %.0f |\n",
+      number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
+      row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
+      row.error.percent_over_px(1.0), row.error.wrong_class, 100.0 * row.ray_cast_share,
+      number(row.mean_steps(), "%.2f").c_str(), static_cast<double>(row.gpu_bytes) * mib,
+      static_cast<double>(row.heap_bytes) * mib, row.build_ms);
+}
+
+void add_table(std::string& text, const BenchResult& result, bool of_all) {
+  text +=
+      "| method | view | median ms | p99 ms | max ms | times fastest | core ms | GPU ms | bound px "
+      "| error max px | p99 px | mean px | % over 1 px | wrong class | % ray cast | steps a px | "
+      "GPU MiB | heap MiB | build ms |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const BenchRow& row : result.rows) {
+    if ((row.view == "all") != of_all) continue;
+    double fastest_ms = row.median_ms();
+    for (const BenchRow& other : result.rows) {
+      if (other.view == row.view) fastest_ms = std::min(fastest_ms, other.median_ms());
+    }
+    add_row(text, row, fastest_ms);
+  }
+  for (const AbsentMethod& absent : result.absent) {
+    add(text, "| %s | absent: %s |", absent.spec.c_str(), absent.why.c_str());
+    for (int column = 2; column < 19; ++column) text += " – |";
+    text += "\n";
+  }
+}
+
+}  // namespace
+
+void BenchError::join(const BenchError& other) {
+  append(errors_px, other.errors_px);
+  worst_px = std::max(worst_px, other.worst_px);
+  worst_is_larger = worst_is_larger || other.worst_is_larger;
+  wrong_class += other.wrong_class;
+}
+
+double BenchError::mean_px() const {
+  if (errors_px.empty()) return 0;
+  return std::accumulate(errors_px.begin(), errors_px.end(), 0.0) /
+         static_cast<double>(errors_px.size());
+}
+
+double BenchError::percent_over_px(double limit_px) const {
+  if (errors_px.empty()) return 0;
+  const auto over = std::count_if(errors_px.begin(), errors_px.end(),
+                                  [&](double error_px) { return error_px > limit_px; });
+  return 100.0 * static_cast<double>(over) / static_cast<double>(errors_px.size());
+}
+
+void BenchRow::join(const BenchRow& other) {
+  const auto before = static_cast<double>(frame_ms.size());
+  const auto more = static_cast<double>(other.frame_ms.size());
+  if (before + more > 0) {
+    ray_cast_share = (ray_cast_share * before + other.ray_cast_share * more) / (before + more);
+  }
+  append(frame_ms, other.frame_ms);
+  append(core_ms, other.core_ms);
+  append(gpu_ms, other.gpu_ms);
+  append(steps, other.steps);
+  error.join(other.error);
+  if (other.bound_px) bound_px = std::max(bound_px.value_or(0.0), *other.bound_px);
+  gpu_bytes = std::max(gpu_bytes, other.gpu_bytes);
+  heap_bytes = std::max(heap_bytes, other.heap_bytes);
+  build_ms = std::max(build_ms, other.build_ms);
+  removed_views += other.removed_views;
+}
+
+double BenchRow::median_ms() const {
+  return percentile(frame_ms, 0.5);
+}
+
+std::optional<double> BenchRow::median_gpu_ms() const {
+  const double median = percentile(gpu_ms, 0.5);
+  return median > 0 ? std::optional(median) : std::nullopt;
+}
+
+std::optional<double> BenchRow::mean_steps() const {
+  const double sum = std::accumulate(steps.begin(), steps.end(), 0.0);
+  return sum > 0 ? std::optional(sum / static_cast<double>(steps.size())) : std::nullopt;
+}
+
+std::string bench_json(const BenchResult& result) {
+  Json rows = Json::array(), absent = Json::array();
+  for (const BenchRow& row : result.rows) rows.push_back(row_json(row));
+  for (const AbsentMethod& one : result.absent) {
+    absent.push_back({{"spec", one.spec}, {"why", one.why}});
+  }
+  const Json json{{"driver", result.driver},
+                  {"width", result.width_px},
+                  {"height", result.height_px},
+                  {"rows", rows},
+                  {"absent", absent}};
+  return json.dump(1) + "\n";
+}
+
+std::string bench_markdown(const BenchResult& result) {
+  std::string text;
+  add(text, "%s, %d x %d, terrain %s\n\nOver all views:\n\n", result.driver.c_str(),
+      result.width_px, result.height_px, result.terrain.c_str());
+  add_table(text, result, true);
+  for (const BenchRow& row : result.rows) {
+    if (row.view != "all" || row.removed_views == 0) continue;
+    add(text, "\n%s drew nothing in %d views: it could give no bound there.\n", row.spec.c_str(),
+        row.removed_views);
+  }
+  text += "\nView by view:\n\n";
+  add_table(text, result, false);
+  return text;
+}
+
+}  // namespace ridgeline::sim

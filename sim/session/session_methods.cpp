@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <chrono>
+
+#include "sim/session/session.hpp"
+
+namespace ridgeline::sim {
+namespace {
+
+double now_ms() {
+  const auto time = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+}  // namespace
+
+Method& Session::keep(std::unique_ptr<Method> method) {
+  methods_.push_back({std::move(method), std::nullopt, 0});
+  return *methods_.back().method;
+}
+
+double Session::build_ms() const {
+  for (const Kept& kept : methods_) {
+    if (kept.method.get() == method_) return kept.build_ms;
+  }
+  return 0;
+}
+
+Session::WindowState Session::window_state() const {
+  const TerrainView view = terrain_->view();
+  return {worker_->blocks_taken(), edits_applied_, view.lattice.chart, view.drawable};
+}
+
+MethodTerrain Session::method_terrain() {
+  const WindowState state = window_state();
+  if (method_posts_of_ != state) {
+    // From blocks of 64 x 64 posts, one after the other, to rows.
+    method_posts_.resize(finest_posts_.size());
+    const auto columns = static_cast<std::size_t>(window_.columns());
+    for (std::size_t b = 0; b < static_cast<std::size_t>(window_.blocks()); ++b) {
+      const std::size_t row = b / window_.column_blocks * block_posts;
+      const std::size_t column = b % window_.column_blocks * block_posts;
+      const float* from = finest_posts_.data() + b * block_posts * block_posts;
+      for (std::size_t r = 0; r < block_posts; ++r, from += block_posts) {
+        std::copy(from, from + block_posts, &method_posts_[(row + r) * columns + column]);
+      }
+    }
+    method_posts_of_ = state;
+  }
+  const WindowSummary summary = terrain_->summary();
+  return {terrain_->view(), method_posts_, summary.lowest_m, summary.highest_m,
+          options_.settings.range_m};
+}
+
+Outcome Session::prepare(const FrameInput& input) {
+  if (method_ == nullptr) return {};
+  if (input.availability.mode == Mode::removed || !local_frame(input.eye).ok()) return {};
+  surface_->make_current();
+  apply_edits(static_cast<double>(input.time_ns) * 1e-9);
+  terrain_->settle(input.eye, *renderer_);
+  settled_ = true;
+  const WindowState state = window_state();
+  const auto kept = std::find_if(methods_.begin(), methods_.end(),
+                                 [&](const Kept& k) { return k.method.get() == method_; });
+  RL_ASSERT(kept != methods_.end());
+  if (kept->built == state || terrain_->summary().known_posts == 0) return {};
+  const MethodTerrain terrain = method_terrain();
+  const double start_ms = now_ms();
+  Outcome built = method_->build(terrain, renderer_->sizes());
+  kept->build_ms = now_ms() - start_ms;
+  if (built.ok()) kept->built = state;
+  return built;
+}
+
+}  // namespace ridgeline::sim

@@ -1,0 +1,158 @@
+// The benchmark from outside: what it measures and writes (not how fast), and methods by name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/cli/program.hpp"
+
+namespace ridgeline::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The synthetic island, made once for all tests of this program.
+const TemporaryFolder& demo() {
+  static const TemporaryFolder folder;
+  static const Ended made = ridgeline({"make-demo", folder.path()});
+  EXPECT_EQ(made.status, 0) << made.err;
+  return folder;
+}
+
+std::vector<std::string> small_bench(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"bench", "--terrain", demo().path(), "--size",
+                                     "64x48", "--range",   "12000",       "--repeats",
+                                     "1",     "--pixels",  "40"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// Rows by spec and view.
+std::set<std::pair<std::string, std::string>> places(const Json& rows) {
+  std::set<std::pair<std::string, std::string>> result;
+  for (const Json& row : rows) result.emplace(row["spec"], row["view"]);
+  return result;
+}
+
+TEST(Bench, a_flight_gives_a_row_for_every_method_and_view_and_one_over_all) {
+  const TemporaryFolder out;
+  const std::string json_file = out.file("bench.json"), svg_file = out.file("bench.svg"),
+                    table_file = out.file("bench.md");
+  const Ended ended =
+      ridgeline(small_bench({"--log", demo().path() + "/demo.log", "--views", "3", "--methods",
+                             "ridgeline:error=1,planes=4,ridgeline:error=4,raycast,mesh", "--json",
+                             json_file, "--svg", svg_file, "--markdown", table_file}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json json = Json::parse(text_of(json_file));
+  const Json& rows = json["rows"];
+  EXPECT_EQ(rows.size(), 4U * (3 + 1));
+  EXPECT_EQ(places(rows).size(), rows.size());
+  EXPECT_TRUE(json["absent"].empty());
+  for (const Json& row : rows) {
+    EXPECT_GT(row["frame_ms_median"], 0.0) << row;
+    EXPECT_GE(row["frame_ms_p99"], row["frame_ms_median"]) << row;
+    EXPECT_GE(row["frame_ms_max"], row["frame_ms_p99"]) << row;
+    EXPECT_GT(row["core_ms"], 0.0) << row;
+    EXPECT_GT(row["gpu_bytes"], 0) << row;
+    EXPECT_GT(row["heap_bytes"], 0) << row;
+    EXPECT_GT(row["build_ms"], 0.0) << row;
+    EXPECT_EQ(row["frames"], row["view"] == "all" ? 3 : 1) << row;
+    EXPECT_EQ(row["judged_pixels"], row["view"] == "all" ? 120 : 40) << row;
+    const bool promises = row["method"] != "mesh";
+    EXPECT_EQ(row["bound_px"].is_null(), !promises) << row;
+    EXPECT_EQ(row["epsilon_px"].is_null(), !promises) << row;
+    if (promises) {
+      EXPECT_LE(row["error_px_max"], row["bound_px"]) << row;
+    }
+    if (row["method"] == "raycast") {
+      EXPECT_EQ(row["ray_cast_share"], 1.0) << row;
+    }
+    if (row["method"] == "mesh") {
+      EXPECT_EQ(row["ray_cast_share"], 0.0) << row;
+    }
+  }
+  EXPECT_EQ(text_of(table_file), ended.out);
+  EXPECT_EQ(text_of(svg_file).rfind("<svg", 0), 0U);
+}
+
+TEST(Bench, by_default_draws_every_method_there_is_from_six_fixed_views) {
+  const TemporaryFolder out;
+  const std::string json_file = out.file("bench.json");
+  const Ended ended = ridgeline(small_bench({"--json", json_file}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json json = Json::parse(text_of(json_file));
+  std::set<std::string> views, methods;
+  for (const Json& row : json["rows"]) {
+    views.insert(row["view"]);
+    methods.insert(row["method"]);
+  }
+  EXPECT_EQ(views, (std::set<std::string>{"low", "valley", "high", "steep down", "banked",
+                                          "wide horizon", "all"}));
+  for (const char* name : {"ridgeline", "raycast", "mesh"}) EXPECT_EQ(methods.count(name), 1U);
+  for (const Json& one : json["absent"]) {
+    EXPECT_NE(ended.out.find(one["why"].get<std::string>()), std::string::npos);
+  }
+}
+
+TEST(Bench, wrong_usage_is_told_in_one_line) {
+  const FlatScene scene;
+  const std::string puget = scene.file("puget.png");
+  expect_one_line(ridgeline({"bench"}), 2, {"--terrain"});
+  expect_one_line(ridgeline({"bench", "--paper", "loffler"}), 2, {"--puget"});
+  expect_one_line(ridgeline({"bench", "--paper", "hoppe", "--puget", puget}), 2, {"--paper"});
+  expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget, "--terrain", "x"}), 2,
+                  {"its own terrain"});
+  expect_one_line(ridgeline({"bench", "--puget", puget, "--terrain", "x"}), 2, {"--paper"});
+  expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget}), 3,
+                  {puget, "no such file"});
+  for (const char* methods : {"magic", "mesh:fast=1", "mesh,ridgeline:error=x", "mesh,,raycast"}) {
+    expect_one_line(ridgeline({"bench", "--terrain", scene.tiles(), "--methods", methods}), 2,
+                    {"--methods"});
+  }
+}
+
+TEST(MethodOption, a_pose_by_another_method_promises_nothing_and_verify_says_so) {
+  const FlatScene scene;
+  const std::string dump = scene.file("dump");
+  const Ended drawn = ridgeline(scene.pose({"--method", "mesh", "--dump", dump}));
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("degraded: mesh, no bound"), std::string::npos) << drawn.out;
+  const Json json = Json::parse(text_of(dump + "/000000.json"));
+  EXPECT_TRUE(json["bound_px"].is_null());
+  EXPECT_EQ(json["reasons"][0], "unproven");
+  const Ended verified = ridgeline({"verify", dump, "--terrain", scene.tiles()});
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_NE(verified.out.find("promises none"), std::string::npos) << verified.out;
+}
+
+TEST(MethodOption, settings_of_ours_are_those_of_the_frame) {
+  const FlatScene scene;
+  const Ended drawn = ridgeline(scene.pose({"--method", "ridgeline:error=2.5"}));
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("bound 2.500 px"), std::string::npos) << drawn.out;
+  for (const char* method : {"magic", "mesh:a=1", "ridgeline:error=1e9", "", ":x=1"}) {
+    expect_one_line(ridgeline(scene.pose({"--method", method})), 2, {"--method"});
+  }
+}
+
+TEST(MethodOption, a_replay_by_another_method_reports_no_bound) {
+  const FlatScene scene;
+  const std::string report = scene.file("report.json");
+  const Ended ended = ridgeline(scene.replay({"--method", "mesh", "--report", report}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json json = Json::parse(text_of(report));
+  int drawn = 0;
+  for (const Json& frame : json["frames"]) {
+    EXPECT_TRUE(frame["bound_px"].is_null()) << frame;
+    if (frame["mode"] == "removed") continue;  // nothing was received yet
+    ++drawn;
+    const Json& reasons = frame["reasons"];
+    EXPECT_NE(std::find(reasons.begin(), reasons.end(), "unproven"), reasons.end()) << frame;
+  }
+  EXPECT_GT(drawn, 5);
+  EXPECT_EQ(json["frames_within_error"], 0);
+}
+
+}  // namespace
+}  // namespace ridgeline::test
