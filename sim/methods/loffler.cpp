@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <glm/vec4.hpp>
 
-#include "shaders/full_screen_vert.hpp"
 #include "shaders/loffler_cast_frag.hpp"
+#include "shaders/loffler_cast_vert.hpp"
 #include "shaders/loffler_frag.hpp"
 #include "shaders/loffler_refine_comp.hpp"
 #include "shaders/loffler_vert.hpp"
@@ -95,7 +95,7 @@ Outcome Loffler::make_objects(const RenderSizes& sizes) {
       made = make_method_program("loffler", shader::loffler_vert, shader::loffler_frag, draw_);
     }
     if (made.ok()) {
-      made = make_method_program("loffler_cast", shader::full_screen_vert,
+      made = make_method_program("loffler_cast", shader::loffler_cast_vert,
                                  shader::loffler_cast_frag, cast_);
     }
     if (made.ok()) made = make_vertices();

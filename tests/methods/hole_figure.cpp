@@ -78,6 +78,7 @@ sim::Outcome draw_hole(const Hole& hole, const std::string& folder, HoleNumbers&
   Land land(hole.height_m);
   for (const auto& [south, west] : hole.tiles) land.add_tile(south, west);
   Scene scene(land, hole.image, 1.0, hole.range_m, hole.pose.eye);
+  scene.settings().cast_every_pixel = true;  // ours with a ray for every pixel: the truth's place
   const sim::Picture ours = drawn(scene, hole);
   sim::MethodSpec spec;
   sim::Outcome parsed = sim::parse_method("loffler:" + hole.settings, spec);

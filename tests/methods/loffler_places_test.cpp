@@ -23,6 +23,7 @@ struct Difference {
 
 Difference difference(Scene& scene, const Pose& pose) {
   scene.session().use(nullptr);
+  scene.settings().cast_every_pixel = true;  // no ray for several pixels
   const sim::Picture ours = scene.draw(pose);
   EXPECT_NE(ours.report.availability.mode, Mode::removed);
   sim::LofflerSettings settings;

@@ -38,8 +38,11 @@ class Stand {
     scene_.session().use(&scene_.session().keep(std::move(method)));
     return result;
   }
-  /// The module's own passes again.
-  void use_ours() { scene_.session().use(nullptr); }
+  /// The module's own passes again, with a ray for every pixel.
+  void use_ours() {
+    scene_.settings().cast_every_pixel = true;
+    scene_.session().use(nullptr);
+  }
 
   sim::Picture draw(const Pose& pose) {
     sim::Picture picture = scene_.draw(pose);
