@@ -50,8 +50,8 @@ class Method {
   /// Draws Renderer::names().range: R32UI, distance along the ray as float bits; 1e30 sky, negative
   /// unknown; every pixel is written. Row 0 of the target is the top of the picture.
   virtual void draw(const RangeScene& scene) = 0;
-  /// Draws over the shaded colour target what a range picture cannot show; after a frame's time, and
-  /// only where its picture is wanted. The blocks and textures of shade() are still bound.
+  /// Draws over the shaded colour target what a range picture cannot show; after a frame's time,
+  /// and only where its picture is wanted. The blocks and textures of shade() are still bound.
   virtual void finish_picture(const Renderer& renderer) { static_cast<void>(renderer); }
   /// Of the last frame. May wait for the GPU; not called in the timed part of a frame.
   [[nodiscard]] virtual MethodFacts facts() = 0;
