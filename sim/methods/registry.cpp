@@ -1,11 +1,13 @@
 #include <algorithm>
 
 #include "config/limits.hpp"
+#include "sim/methods/clipmap.hpp"
 #include "sim/methods/embree.hpp"
 #include "sim/methods/hybrid.hpp"
 #include "sim/methods/loffler.hpp"
 #include "sim/methods/mesh.hpp"
 #include "sim/methods/method.hpp"
+#include "sim/methods/pgm.hpp"
 #include "sim/methods/setting_reader.hpp"
 #include "sim/methods/warp.hpp"
 
@@ -20,9 +22,9 @@ struct Entry {
   Factory make;
 };
 constexpr Entry entries[] = {
-    {"loffler", make_loffler}, {"warp", make_warp}, {"hybrid", make_hybrid},
-    {"raycast", nullptr},      {"mesh", make_mesh}, {"embree", make_embree},
-    {"ridgeline", nullptr},
+    {"pgm", make_pgm},       {"loffler", make_loffler}, {"warp", make_warp},
+    {"hybrid", make_hybrid}, {"clipmap", make_clipmap}, {"raycast", nullptr},
+    {"mesh", make_mesh},     {"embree", make_embree},   {"ridgeline", nullptr},
 };
 
 const Entry* find(std::string_view name) {

@@ -109,7 +109,8 @@ TEST_P(Places, rim_of_the_known) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Places,
                          testing::Values("warp", "hybrid:t=0", "hybrid:cell=48",
-                                         "hybrid:t=1e9,k=0.01,cell=24"),
+                                         "hybrid:t=1e9,k=0.01,cell=24", "pgm:grid=512x512",
+                                         "clipmap:grid=255"),
                          [](const auto& spec) {
                            std::string name;
                            for (const char c : std::string(spec.param)) {

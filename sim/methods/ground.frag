@@ -1,0 +1,3 @@
+in float unknown;
+
+void main() { put_ground(unknown); }
