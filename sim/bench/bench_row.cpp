@@ -47,6 +47,7 @@ Json row_json(const BenchRow& row) {
   json["heap_bytes"] = row.heap_bytes;
   json["build_ms"] = row.build_ms;
   json["frames"] = row.frame_ms.size();
+  json["range_m"] = row.range_m;
   json["removed_views"] = row.removed_views;
   json["spec"] = row.spec;
   return json;
@@ -101,6 +102,23 @@ void add_table(std::string& text, const BenchResult& result, bool of_all) {
   }
 }
 
+/// What the figures of some methods leave out: views without a picture, shorter ranges.
+void add_notes(std::string& text, const BenchResult& result) {
+  double longest_m = 0;
+  for (const BenchRow& row : result.rows) longest_m = std::max(longest_m, row.range_m);
+  for (const BenchRow& row : result.rows) {
+    if (row.view != "all") continue;
+    if (row.removed_views > 0) {
+      add(text, "\n%s drew nothing in %d views: it could give no bound there.\n", row.spec.c_str(),
+          row.removed_views);
+    }
+    if (row.range_m > 0 && row.range_m < longest_m) {
+      add(text, "\n%s drew no farther than %.1f km in some view, others %.1f km.\n",
+          row.spec.c_str(), row.range_m * 1e-3, longest_m * 1e-3);
+    }
+  }
+}
+
 }  // namespace
 
 void BenchError::join(const BenchError& other) {
@@ -139,6 +157,7 @@ void BenchRow::join(const BenchRow& other) {
   heap_bytes = std::max(heap_bytes, other.heap_bytes);
   build_ms = std::max(build_ms, other.build_ms);
   removed_views += other.removed_views;
+  if (other.range_m > 0 && (range_m == 0 || other.range_m < range_m)) range_m = other.range_m;
 }
 
 double BenchRow::median_ms() const {
@@ -174,11 +193,7 @@ std::string bench_markdown(const BenchResult& result) {
   add(text, "%s, %d x %d, terrain %s\n\nOver all views:\n\n", result.driver.c_str(),
       result.width_px, result.height_px, result.terrain.c_str());
   add_table(text, result, true);
-  for (const BenchRow& row : result.rows) {
-    if (row.view != "all" || row.removed_views == 0) continue;
-    add(text, "\n%s drew nothing in %d views: it could give no bound there.\n", row.spec.c_str(),
-        row.removed_views);
-  }
+  add_notes(text, result);
   text += "\nView by view:\n\n";
   add_table(text, result, false);
   return text;

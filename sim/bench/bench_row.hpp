@@ -31,6 +31,7 @@ struct BenchRow {
   BenchError error;
   std::size_t gpu_bytes = 0, heap_bytes = 0;
   double build_ms = 0;
+  double range_m = 0;     ///< shortest display range drawn; 0: nothing was drawn
   int removed_views = 0;  ///< in which nothing was drawn because no bound could be given
 
   /// Takes in what another row of the same method measured.

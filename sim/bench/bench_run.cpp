@@ -82,6 +82,7 @@ Outcome Run::time_frame(const BenchMethod& method, const BenchView& view, bool c
   if (!counted || picture.report.availability.mode == Mode::removed) return picture.problem;
   row.core_ms.push_back(picture.core_ms);
   row.frame_ms.push_back(picture.cpu_ms);
+  row.range_m = picture.report.range_m;
   const auto& ms = picture.counts.pass_ms;
   row.gpu_ms.push_back(std::accumulate(ms.begin(), ms.end(), 0.0));
   const double bound_px = std::max(picture.report.bound_px, picture.method.bound_px);

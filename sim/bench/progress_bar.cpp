@@ -39,8 +39,8 @@ void ProgressBar::draw(const std::string& doing) {
 }
 
 void ProgressBar::end() {
-  std::fprintf(stderr, "%s%d steps in %.0f s%-60s\n", is_terminal_ ? "\r" : "", done_,
-               now_s() - start_s_, "");
+  std::fprintf(stderr, "%s%d steps in %.0f s%s\n", is_terminal_ ? "\r" : "", done_,
+               now_s() - start_s_, is_terminal_ ? std::string(70, ' ').c_str() : "");
 }
 
 }  // namespace ridgeline::sim

@@ -75,12 +75,13 @@ void SvgPage::polyline(const std::vector<std::pair<double, double>>& points,
 }
 
 void SvgPage::marker(double x, double y, int shape, const std::string& colour, double size) {
-  // Corners, turn of the first one; 0 corners is a circle.
+  // Corners, turn of the first one, and how far every other one stands inside; 0 corners: a circle.
   constexpr struct {
     int corners;
-    double turn;
-  } shapes[] = {{0, 0}, {4, 0.125}, {3, 0.75}, {4, 0}, {3, 0.25}, {5, 0.75}, {6, 0}, {8, 0.0625}};
-  const auto& [corners, turn] = shapes[static_cast<std::size_t>(shape) % std::size(shapes)];
+    double turn, inner;
+  } shapes[] = {{0, 0, 1},    {4, 0.125, 1}, {3, 0.75, 1},   {4, 0, 1},        {3, 0.25, 1},
+                {5, 0.75, 1}, {6, 0, 1},     {8, 0.0625, 1}, {10, 0.75, 0.45}, {8, 0, 0.4}};
+  const auto& [corners, turn, inner] = shapes[static_cast<std::size_t>(shape) % std::size(shapes)];
   if (corners == 0) {
     body_ += print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, size,
                    colour.c_str());
@@ -89,8 +90,8 @@ void SvgPage::marker(double x, double y, int shape, const std::string& colour, d
   body_ += "<polygon points=\"";
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * (turn + static_cast<double>(k) / corners);
-    body_ +=
-        print("%.1f,%.1f ", x + 1.25 * size * std::cos(angle), y + 1.25 * size * std::sin(angle));
+    const double radius = 1.25 * size * (inner < 1 ? 1.2 : 1.0) * (k % 2 == 0 ? 1.0 : inner);
+    body_ += print("%.1f,%.1f ", x + radius * std::cos(angle), y + radius * std::sin(angle));
   }
   body_ += "\" fill=\"" + colour + "\"/>\n";
 }
@@ -112,14 +113,10 @@ void SvgPage::label(double x, double y, const std::string& words, const Box& fra
   const double width = letter_px * static_cast<double>(words.size()), half = 0.5 * label_height_px;
   constexpr double gap = 9.0;
   // Left edge and middle of the label, the best place first.
-  const std::pair<double, double> places[] = {{x + gap, y},
-                                              {x - gap - width, y},
-                                              {x - 0.5 * width, y - 15},
-                                              {x - 0.5 * width, y + 15},
-                                              {x + gap, y - 11},
-                                              {x + gap, y + 11},
-                                              {x - gap - width, y - 11},
-                                              {x - gap - width, y + 11}};
+  const std::pair<double, double> places[] = {{x + gap, y - 11},         {x + gap, y},
+                                              {x + gap, y + 11},         {x - gap - width, y - 11},
+                                              {x - gap - width, y},      {x - gap - width, y + 11},
+                                              {x - 0.5 * width, y - 15}, {x - 0.5 * width, y + 15}};
   for (const auto& [left, middle] : places) {
     const Box box{left, middle - half, left + width, middle + half};
     const bool free = std::none_of(taken_.begin(), taken_.end(),

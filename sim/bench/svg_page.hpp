@@ -16,7 +16,7 @@ class SvgPage {
 
   void line(double x0, double y0, double x1, double y1, const std::string& style);
   void polyline(const std::vector<std::pair<double, double>>& points, const std::string& style);
-  /// One of 8 shapes round a point.
+  /// One of 10 shapes round a point.
   void marker(double x, double y, int shape, const std::string& colour, double size);
   void ring(double x, double y, double radius, const std::string& style);
   /// `anchor`: start, middle or end.

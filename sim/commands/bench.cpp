@@ -11,6 +11,7 @@ namespace {
 struct BenchArguments : SceneArguments {
   BenchOptions options;
   std::string methods, paper, puget_file;
+  bool own_picture = false;  ///< --size or --range was given
 };
 
 /// What is missing or too much; empty when nothing is.
@@ -21,8 +22,8 @@ std::string wrong_combination(const BenchArguments& arguments) {
   }
   if (arguments.puget_file.empty()) return "--paper needs --puget FILE";
   const bool own_scene = arguments.scene.terrain_folder.empty() && arguments.methods.empty() &&
-                         arguments.options.log_file.empty();
-  return own_scene ? "" : "--paper brings its own terrain, views and methods";
+                         arguments.options.log_file.empty() && !arguments.own_picture;
+  return own_scene ? "" : "--paper brings its own terrain, views, methods, size and range";
 }
 
 int run_bench(BenchArguments& arguments) {
@@ -79,7 +80,10 @@ void add_bench_command(CLI::App& program, int& status) {
   command->add_option("--pixels", options.judged_pixels, "pixels the oracle judges a picture")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  command->callback([arguments, &status] { status = run_bench(*arguments); });
+  command->callback([arguments, command, &status] {
+    arguments->own_picture = command->count("--size") > 0 || command->count("--range") > 0;
+    status = run_bench(*arguments);
+  });
 }
 
 }  // namespace ridgeline::sim

@@ -103,6 +103,8 @@ TEST(Bench, wrong_usage_is_told_in_one_line) {
   expect_one_line(ridgeline({"bench", "--paper", "hoppe", "--puget", puget}), 2, {"--paper"});
   expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget, "--terrain", "x"}), 2,
                   {"its own terrain"});
+  expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget, "--size", "64x48"}), 2,
+                  {"size"});
   expect_one_line(ridgeline({"bench", "--puget", puget, "--terrain", "x"}), 2, {"--paper"});
   expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget}), 3,
                   {puget, "no such file"});

@@ -53,6 +53,9 @@ TEST(BenchRow, joining_two_views_keeps_every_frame_and_every_pixel) {
   more.error.worst_is_larger = true;
   more.build_ms = 7;
   more.gpu_ms = {4};
+  all.range_m = 100;
+  more.range_m = 40;
+  more.removed_views = 1;
   all.join(more);
   EXPECT_EQ(all.frame_ms.size(), 4U);
   EXPECT_EQ(all.median_ms(), 30);
@@ -65,6 +68,8 @@ TEST(BenchRow, joining_two_views_keeps_every_frame_and_every_pixel) {
   EXPECT_EQ(all.bound_px, 2.0);
   EXPECT_EQ(all.median_gpu_ms(), 4.0);
   EXPECT_EQ(all.build_ms, 7);
+  EXPECT_EQ(all.range_m, 40);
+  EXPECT_EQ(all.removed_views, 1);
 }
 
 TEST(BenchRow, nothing_measured_is_nothing_and_not_a_division_by_zero) {
@@ -123,6 +128,18 @@ TEST(BenchTable, every_line_has_as_many_cells_as_its_head) {
   }
   EXPECT_EQ(lines, 2 * (2 + 2 + 1));
   EXPECT_NE(text.find("absent"), std::string::npos);
+}
+
+TEST(BenchTable, says_which_method_drew_less_than_others) {
+  BenchResult result = result_of_two();
+  EXPECT_EQ(bench_markdown(result).find("drew"), std::string::npos);
+  result.rows[2].range_m = 32'700;
+  result.rows[2].removed_views = 2;
+  result.rows[3].range_m = 100'000;
+  const std::string text = bench_markdown(result);
+  EXPECT_NE(text.find("ridgeline:error=1 drew nothing in 2 views"), std::string::npos) << text;
+  EXPECT_NE(text.find("ridgeline:error=1 drew no farther than 32.7 km"), std::string::npos) << text;
+  EXPECT_EQ(text.find("mesh drew"), std::string::npos) << text;
 }
 
 TEST(BenchPlot, has_one_line_a_method_over_the_rows_of_all_views) {
