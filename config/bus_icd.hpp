@@ -6,10 +6,15 @@
 
 #include "config/limits_bus.hpp"
 
-/// The bus interface control table: what this display reads from a CANaerospace bus (docs/icd.md).
+/// The bus interface control table: every parameter the display reads, and how CANaerospace carries
+/// it (docs/icd.md). How the other protocols carry the same parameters: arinc429_icd.hpp and
+/// canfix_icd.hpp.
 /// Source: CANaerospace specification v1.7 (M. Stock), sections 2, 3, 5 and 7; free to cite and
 /// use.
 namespace ridgeline {
+
+/// What is spoken on the bus. Configured, never guessed: the protocols use the same identifiers.
+enum class BusProtocol : std::uint8_t { canaerospace, arinc429, canfix };
 
 /// Data type codes of CANaerospace v1.7, section 2.2; 32-99 are reserved, 100-255 are user-defined.
 enum class CanasType : std::uint8_t {
@@ -185,6 +190,18 @@ constexpr bool icd_is_consistent() {
   return true;
 }
 static_assert(icd_is_consistent(), "rows are in the order of BusParameter and of ascending id");
+
+constexpr bool only_gps_positions_come_in_halves() {
+  constexpr std::uint32_t halves =
+      type_bit(CanasType::double_high) | type_bit(CanasType::double_low);
+  for (const BusIcdRow& row : bus_icd) {
+    const bool is_gps_position =
+        row.parameter == BusParameter::gps_latitude || row.parameter == BusParameter::gps_longitude;
+    if (((row.quantity.types & halves) != 0) != is_gps_position) return false;
+  }
+  return true;
+}
+static_assert(only_gps_positions_come_in_halves(), "the decoder remembers halves of these two");
 }  // namespace icd_detail
 
 /// The row of a parameter.

@@ -40,6 +40,9 @@ inline constexpr std::int64_t extrapolation_limit_ns = 1 * second_ns;
 inline constexpr std::int64_t fix_pair_limit_ns = 50 * ms_ns;
 /// Upper and lower half of one DOUBLE: sent back to back; well below half of a 10 Hz interval.
 inline constexpr std::int64_t double_pair_limit_ns = 20 * ms_ns;
+/// Coarse and fine word of one GNSS coordinate: a whole burst of position words at 12.5 kbit/s
+/// takes 30 ms; well below half of the shortest interval between bursts (200 ms).
+inline constexpr std::int64_t fine_pair_limit_ns = 50 * ms_ns;
 /// A frame may be this much later than `now` (two clocks read one after the other), no more.
 inline constexpr std::int64_t future_tolerance_ns = 20 * ms_ns;
 

@@ -25,6 +25,7 @@ RL_CONST(highest_unit, 1);
 RL_CONST(nodes_unit, 3);
 RL_CONST(range_unit, 4);
 RL_CONST(text_unit, 5);
+RL_CONST(shaded_unit, 6);
 
 // Bytes of the text layer; 0 is no text.
 RL_CONST(text_plate, 60);
@@ -39,6 +40,10 @@ RL_CONST(target_image, 0);
 RL_CONST(planes_buffer, 0);
 RL_CONST(slopes_buffer, 1);
 RL_CONST(counters_buffer, 2);
+RL_CONST(tiles_buffer, 3);
+
+// Vertex attributes.
+RL_CONST(tile_attribute, 0);
 
 // One frame: pose, window and ground map. Lengths in m; window coordinates in lattice posts, relative
 // to the post south-west of the eye; heights over the ellipsoid.
@@ -50,7 +55,7 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 earth;         // x: 1/M; y: 1/N; z: unused; w: eye height, rounded
   vec4 heights;       // x: highest of the window; y: straight way; z: largest node; w: largest step
   vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; yw: swell at the range, 03 21
-  ivec4 window;       // xy: low bits of the eye's post; z: levels; w: unused
+  ivec4 window;       // xy: low bits of the eye's post; z: levels; w: tiles of the picture
   vec4 level_size;    // xy: columns and rows of a level; zw: one over them
   ivec4 level_eye[6];   // xy: where a level keeps the post south-west of the eye
   ivec4 level_rect[6];  // cells a level can draw: west, south, east, north (ends excluded)

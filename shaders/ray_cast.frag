@@ -1,5 +1,5 @@
-// Ray cast pass: the first hit of every pixel's own ray, from where the grid proves it must start.
-// Exact up to rounding: an error of the grid can cost time, never a pixel.
+// Ray cast pass: the first hit of every ray, one a block of pixels, from where the grid proves it
+// must start. Exact up to rounding: an error of the grid can cost time, never a pixel.
 layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
@@ -193,8 +193,7 @@ float first_hit(Ray r, float start, int size) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);  // row 0 of the target is the top of the picture
-  vec3 direction = pixel_ray(vec2(pixel));
+  vec3 direction = pixel_ray(ray_pixel(ivec2(gl_FragCoord.xy)));
   float empty = proven_empty(direction);
   float value = proven_sky;
   if (empty < sky) {

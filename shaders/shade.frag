@@ -1,7 +1,6 @@
-// Shade pass: what the pilot sees, from the range of each pixel. No terrain value is made here.
+// Shade pass: what the pilot sees along each ray, from its range. No terrain value is made here.
 // Without branches where it can be: a software GPU runs both sides of each anyway.
 layout(binding = range_unit) uniform highp usampler2D range_texture;
-layout(binding = text_unit) uniform highp sampler2D text_texture;
 layout(location = 0) out vec4 colour;
 
 const vec3 horizon_blue = vec3(0.72, 0.82, 0.91);
@@ -98,7 +97,10 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   vec3 per_pixel2 = max(1.0 + a * (a * size2 - 2.0 * normal), 1.0e-4) * (t * t);
   vec3 offset = vec3(ground_grid.xy + at * ground_grid.zw, height * (1.0 / contour_m));
   // A pixel off the axis is a smaller angle: `direction` is longer than 1 by that much.
-  vec3 px2 = vec3(grid_step.xy, line.x) * dot(direction, direction) / per_pixel2;
+  // Where one ray stands for a block of pixels its lines are as much wider.
+  ivec2 block = tile_block(tile);
+  vec3 px2 = vec3(grid_step.xy, line.x) * dot(direction, direction) /
+             (per_pixel2 * float(block.x * block.y));
   vec3 cover = line_cover(offset, px2);
 
   bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
@@ -120,31 +122,18 @@ vec3 plain_colour(vec3 direction, vec2 pixel) {
   return legend.y < 0.5 ? dark : direction.z >= 0.0 ? vec3(0.20, 0.45, 0.78) : plain_ground;
 }
 
-// Ink of the text layer: a dark plate, words over it.
-vec3 with_text(vec3 under, ivec2 pixel) {
-  float ink = 255.0 * texelFetch(text_texture, pixel, 0).r;
-  under *= ink > 0.5 * float(text_plate) ? 0.36 : 1.0;
-  vec3 words = ink > 0.5 * float(text_ink + text_caution)       ? vec3(1.0)
-               : ink > 0.5 * float(text_caution + text_warning) ? vec3(1.0, 0.72, 0.10)
-                                                                : vec3(1.0, 0.25, 0.20);
-  return ink > 0.5 * float(text_warning + text_plate) ? words : under;
-}
-
 void main() {
-  ivec2 pixel = ivec2(int(gl_FragCoord.x), int(ray_dy.w) - 1 - int(gl_FragCoord.y));
-  vec3 direction = pixel_ray(vec2(pixel));
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  vec2 pixel = ray_pixel(texel);
+  vec3 direction = pixel_ray(pixel);
   Ray r = make_ray(direction);
-  float t = uintBitsToFloat(texelFetch(range_texture, pixel, 0).r);
+  float t = uintBitsToFloat(texelFetch(range_texture, texel, 0).r);
   vec3 seen = ground_colour(direction, r, min(abs(t), ray_origin.w));
   // Unknown is hatched in the picture, not on the ground, so that it looks like no ground.
-  float hatch = fract(float(pixel.x + pixel.y) * (1.0 / 12.0));
+  float hatch = fract((pixel.x + pixel.y) * (1.0 / 12.0));
   vec3 unknown = hatch < 0.5 ? vec3(0.86, 0.05, 0.86) : vec3(0.26, 0.02, 0.28);
   seen = t < 0.0 ? unknown : seen;
   seen = abs(t) >= sky ? sky_colour(r.up) : seen;
-  seen = legend.x < 0.5 ? plain_colour(direction, vec2(pixel) + 0.5) : seen;
-  // The line of zero pitch, with a dark rim so that it shows on snow and sky.
-  float from_horizon = (abs(direction.z) + 1.0 - legend.y) * line.y;
-  seen *= 1.0 - 0.35 * clamp(2.4 - from_horizon, 0.0, 1.0);
-  seen = mix(seen, vec3(1.0), 0.90 * clamp(line.z - from_horizon, 0.0, 1.0));
-  colour = vec4(with_text(seen, pixel), 1.0);
+  seen = legend.x < 0.5 ? plain_colour(direction, pixel + 0.5) : seen;
+  colour = vec4(seen, 1.0);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/bus/clock_value.hpp"
+
 namespace ridgeline {
 namespace {
 
@@ -41,31 +43,11 @@ std::int16_t i16_be(std::uint8_t high, std::uint8_t low) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(high << 8 | low));
 }
 
-/// Days since 1970-01-01 of a Gregorian date: counted from 1 March so that the leap day comes last.
-std::int32_t days_of_date(std::int32_t year, std::int32_t month, std::int32_t day) {
-  const std::int32_t shifted_year = month > 2 ? year : year - 1;
-  const std::int32_t shifted_month = month > 2 ? month - 3 : month + 9;
-  const std::int32_t year_days =
-      365 * shifted_year + shifted_year / 4 - shifted_year / 100 + shifted_year / 400;
-  const std::int32_t month_days = (153 * shifted_month + 2) / 5;
-  constexpr std::int32_t days_to_1970 = 719468;
-  return year_days + month_days + day - 1 - days_to_1970;
-}
-
 /// UTC is h, m, s as decimal bytes, date is day, month, century, year of century.
 Result<double> clock_value(const BusIcdRow& row, const std::array<std::uint8_t, 4>& data) {
-  if (row.parameter == BusParameter::utc) {
-    // 60 is a leap second.
-    if (data[0] > 23 || data[1] > 59 || data[2] > 60) return Fault::bus_value_out_of_range;
-    return 3600.0 * data[0] + 60.0 * data[1] + data[2];
-  }
-  constexpr std::array<std::uint8_t, 13> longest = {0,  31, 29, 31, 30, 31, 30,
-                                                    31, 31, 30, 31, 30, 31};
-  const bool plausible = data[1] >= 1 && data[1] <= 12 && data[0] >= 1 &&
-                         data[0] <= longest[data[1]] && data[2] >= 19 && data[2] <= 21 &&
-                         data[3] <= 99;
-  if (!plausible) return Fault::bus_value_out_of_range;
-  return static_cast<double>(days_of_date(data[2] * 100 + data[3], data[1], data[0]));
+  if (row.parameter == BusParameter::utc) return second_of_day(data[0], data[1], data[2]);
+  if (data[3] > 99) return Fault::bus_value_out_of_range;
+  return days_since_1970(data[2] * 100U + data[3], data[1], data[0]);
 }
 
 /// SHORT2 {value, full scale}: value * scale / 32767 (section 5). A scale of zero or less says
@@ -137,6 +119,22 @@ Result<CanasMessage> canas_message(const BusFrame& frame, HeaderRule rule) {
     return message.type == 0 ? Fault::bus_type_mismatch : Fault::bus_length;
   }
   return message;
+}
+
+std::optional<BusFrame> on_standard_channel(const BusFrame& frame, const ChannelOffsets& offsets) {
+  if (offsets.count == 0) return frame;
+  RL_ASSERT(offsets_are_distinct(offsets));
+  for (std::uint32_t channel = 0; channel < offsets.count; ++channel) {
+    const std::uint32_t offset = offsets.offset[channel];
+    const bool is_mine =
+        frame.extended == (offset != 0) && frame.id >= offset && frame.id - offset < id_count;
+    if (!is_mine) continue;
+    BusFrame moved = frame;
+    moved.id = frame.id - offset + (channel << 16);
+    moved.extended = channel != 0;
+    return moved;
+  }
+  return std::nullopt;
 }
 
 std::uint16_t canas_channel(const BusFrame& frame) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "config/bus_icd.hpp"
 #include "core/base/result.hpp"
@@ -47,6 +48,13 @@ struct DecodedValue {
 /// The table row a frame's identifier names, on any channel; nullptr when the display does not read
 /// it, or when the frame is no data frame.
 [[nodiscard]] const BusIcdRow* icd_row_of(const BusFrame& frame);
+
+/// The same frame with the identifier that the standard would give it, 65536 n above channel 0;
+/// nothing where it is on none of the configured channels. With no configured offsets it is the
+/// frame itself.
+/// Domain: offsets_are_distinct(offsets), else RL_ASSERT.
+[[nodiscard]] std::optional<BusFrame> on_standard_channel(const BusFrame& frame,
+                                                          const ChannelOffsets& offsets);
 
 /// Redundancy channel of a frame: 0 for 11-bit ids, id / 65536 for 29-bit ones.
 [[nodiscard]] std::uint16_t canas_channel(const BusFrame& frame);

@@ -103,6 +103,14 @@ PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, cons
   return grid;
 }
 
+/// What of the promise is left for rays that stand for several pixels.
+RaySharing sharing_of(const FrameSettings& settings, const FrameReport& report) {
+  constexpr double rounding_px = 1e-3;  // of the middle of a block
+  const double left_px = report.bound_px - report.budget.smallest_px() - rounding_px;
+  return {report.range_m, settings.cast_every_pixel ? 0.0 : left_px, report.bound_px,
+          report.budget.geometry_px};
+}
+
 /// The frame of a method that promises nothing: no budget, no grid, the whole range.
 FrameReport draw_instead(const FrameSettings& settings, FrameReport report,
                          const TerrainKeeper& terrain, Renderer& renderer, FrameBlocks& blocks) {
@@ -141,6 +149,7 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   RL_ASSERT(any_camera);  // the image geometry was checked at boot
   report.camera = any_camera.value();
   blocks = camera_blocks(report.camera);
+  renderer.use_single_rays();
   attitude_valid = attitude_valid && camera_made;
   if (!camera_made) return removed(report, Reason::attitude_invalid);
   if (report.availability.mode == Mode::removed) return report;
@@ -190,8 +199,13 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;
+  const RayTilePlan rays = plan_ray_tiles(terrain, report.local, report.camera,
+                                          sharing_of(settings, report), tables.tiles);
+  report.rays = rays.rays;
+  report.shared_px = rays.shared_px;
   renderer.draw_terrain(blocks, tables.planes.first(report.planes),
-                        tables.slopes.first(report.rows));
+                        tables.slopes.first(report.rows),
+                        tables.tiles.tiles.first(static_cast<std::size_t>(rays.tiles)));
   return report;
 }
 

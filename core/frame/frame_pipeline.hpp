@@ -2,6 +2,7 @@
 #include <span>
 
 #include "core/frame/frame_report.hpp"
+#include "core/frame/ray_tiles.hpp"
 #include "core/frame/terrain_keeper.hpp"
 #include "core/render/renderer.hpp"
 
@@ -50,6 +51,7 @@ struct FrameTables {
   std::span<PlaneRecord> planes;  ///< >= RenderSizes::planes
   std::span<float> slopes;        ///< >= RenderSizes::rows
   std::span<std::uint8_t> text;   ///< width x height
+  RayTileTables tiles;
 };
 
 /// Draws one frame: availability, local frame and camera, terrain window, error budget, projected

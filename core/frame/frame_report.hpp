@@ -22,6 +22,8 @@ struct FrameReport {
   ErrorBudget budget;
   int planes = 0, rows = 0;  ///< of the projected grid; 0 when every pixel was ray cast
   std::int64_t nodes = 0;
+  int rays = 0;          ///< of the picture: one a block of pixels
+  double shared_px = 0;  ///< largest distance of a pixel from its ray
   WindowSummary window;
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "config/limits.hpp"
+#include "core/frame/upright.hpp"
 
 namespace ridgeline {
 namespace {
@@ -20,7 +21,6 @@ constexpr double neighbour_px = 0.7071;
 constexpr double all_neighbours_px = 4.0;  ///< so far every pixel is tried
 constexpr double between_corners = 0.995;  ///< a part's inside against its corners
 constexpr double slant_slack = 0.97e-4;    ///< of the contract's 1e-4 along the ray
-constexpr double near_vertical = 0.2;      ///< sine of the angle to straight up or down
 constexpr double least_grip = 0.05;        ///< below it a turn of the ray wins no height
 constexpr TurnRads turn_px{1.05 * (1.0 + neighbour_px), 7.0, 64.0};
 constexpr int most_cuts = 4;
@@ -160,22 +160,6 @@ double steepest_look_rad(const Camera& camera) {
   }
   const double diagonal = std::numbers::sqrt2 * between_rad;
   return std::min(deepest + diagonal, 0.5 * std::numbers::pi);
-}
-
-/// How the picture moves at an image point when a ray turns within its vertical plane.
-struct Upright {
-  glm::dvec2 way{0.0};    ///< direction in the picture, of length 1
-  double px_per_rad = 0;  ///< 0 where planes converge
-};
-
-Upright upright_at(const Camera& camera, double x, double y) {
-  const glm::dvec3 up = glm::transpose(camera.enu_from_camera.columns) * glm::dvec3(0, 0, 1);
-  const glm::dvec2 along(camera.fx * (up.x - x * up.z), camera.fy * (up.y - y * up.z));
-  const glm::dvec3 ray = glm::normalize(glm::dvec3(x, y, 1.0));
-  const double sine = glm::length(up - glm::dot(up, ray) * ray);
-  const double px = glm::length(along);
-  if (sine < near_vertical || px < 1e-6) return {};
-  return {along / px, px * std::sqrt(1.0 + x * x + y * y) / sine};
 }
 
 /// Calls use(part, upright) for the four corners of every part that shows a coarse block.

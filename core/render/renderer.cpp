@@ -4,10 +4,12 @@
 #include <limits>
 
 #include "shaders/count_comp.hpp"
-#include "shaders/full_screen_vert.hpp"
+#include "shaders/present_frag.hpp"
 #include "shaders/ray_cast_frag.hpp"
 #include "shaders/shade_frag.hpp"
 #include "shaders/sweep_comp.hpp"
+#include "shaders/tile_pixels_vert.hpp"
+#include "shaders/tile_rays_vert.hpp"
 
 namespace ridgeline {
 namespace {
@@ -81,12 +83,19 @@ Status Renderer::make_programs(ShaderLog log) {
     const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
     if (!made) return made;
   }
-  const Status made =
-      take(make_draw_program("ray_cast", shader::full_screen_vert, shader::ray_cast_frag, log),
-           ray_cast_);
-  if (!made) return made;
-  return take(make_draw_program("shade", shader::full_screen_vert, shader::shade_frag, log),
-              shade_);
+  struct Drawn {
+    Program* program;
+    std::string_view name, vertex, fragment;
+  };
+  for (const Drawn& entry :
+       {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
+        Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
+        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag}}) {
+    const Status made =
+        take(make_draw_program(entry.name, entry.vertex, entry.fragment, log), *entry.program);
+    if (!made) return made;
+  }
+  return {};
 }
 
 Status Renderer::make_storage() {
@@ -95,6 +104,7 @@ Status Renderer::make_storage() {
   if (s) s = take(make_texture_array(GL_R32F, w / 2 + w / 4, h / 2, levels, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
   if (s) s = take(make_texture(GL_R32UI, sizes_.width_px, sizes_.height_px, 1, 4), range_);
+  if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), shaded_);
   if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
   if (s) s = take(make_texture(GL_R8, sizes_.width_px, sizes_.height_px, 1, 1), text_);
   constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
@@ -105,11 +115,51 @@ Status Renderer::make_storage() {
   if (s) s = take(make_buffer(ssbo, sizes_.rows * sizeof(float), GL_DYNAMIC_DRAW), slopes_);
   if (s) s = take(make_buffer(ssbo, counter_bytes, GL_DYNAMIC_READ), counters_);
   if (s) s = take(make_target(range_), range_target_);
+  if (s) s = take(make_target(shaded_), shaded_target_);
   if (s) s = take(make_target(colour_), colour_target_);
-  GLuint vertices = 0;
-  glGenVertexArrays(1, &vertices);
-  empty_vertices_ = VertexArray(vertices);
-  return s;
+  return s ? make_tiles() : s;
+}
+
+Status Renderer::make_tiles() {
+  bind_texture(shader::shaded_unit, shaded_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  const auto most = static_cast<std::size_t>(most_tiles(sizes_.width_px)) *
+                    static_cast<std::size_t>(most_tiles(sizes_.height_px));
+  constexpr GLenum vbo = GL_ARRAY_BUFFER;
+  Status s = take(make_buffer(vbo, most * sizeof(RayTile), GL_DYNAMIC_DRAW), tiles_);
+  if (s) s = take(make_buffer(vbo, most * sizeof(RayTile), GL_STATIC_DRAW), single_tiles_);
+  if (!s) return s;
+  // Made at boot in what becomes the frames' own memory.
+  auto* records = static_cast<RayTile*>(
+      glMapBufferRange(vbo, 0, static_cast<GLsizeiptr>(most * sizeof(RayTile)), GL_MAP_WRITE_BIT));
+  if (records == nullptr) return Fault::gl_out_of_memory;
+  single_count_ = put_tiles({sizes_.width_px, 0}, {sizes_.height_px, 0}, std::span(records, most));
+  glUnmapBuffer(vbo);
+  for (const auto& [buffer, vertices] :
+       {std::pair(&tiles_, &tile_vertices_), std::pair(&single_tiles_, &single_vertices_)}) {
+    GLuint name = 0;
+    glGenVertexArrays(1, &name);
+    *vertices = VertexArray(name);
+    glBindVertexArray(name);
+    glBindBuffer(vbo, buffer->name());
+    glEnableVertexAttribArray(shader::tile_attribute);
+    glVertexAttribIPointer(shader::tile_attribute, 4, GL_INT, sizeof(RayTile), nullptr);
+    glVertexAttribDivisor(shader::tile_attribute, 1);
+  }
+  glBindVertexArray(0);
+  return {};
+}
+
+int Renderer::tile_count() const {
+  return tiles_shown_.empty() ? single_count_ : static_cast<int>(tiles_shown_.size());
+}
+
+void Renderer::write_frame_block(const FrameBlocks& blocks) {
+  shader::FrameBlock frame = blocks.frame;
+  frame.window.w = tile_count();
+  write_buffer(GL_UNIFORM_BUFFER, frame_block_, &frame, sizeof frame);
+  glBindBufferBase(GL_UNIFORM_BUFFER, shader::frame_block_binding, frame_block_.name());
 }
 
 void Renderer::upload_block(const TerrainBlock& block, const BlockSlot& slot) {
@@ -143,12 +193,16 @@ void Renderer::bind_window() const {
 }
 
 void Renderer::begin_range(const FrameBlocks& blocks) {
+  use_single_rays();
+  begin_rays(blocks);
+}
+
+void Renderer::begin_rays(const FrameBlocks& blocks) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
   const std::uint32_t zeros[8] = {};
-  write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
+  write_frame_block(blocks);
   write_buffer(ubo, grid_block_, &blocks.grid, sizeof blocks.grid);
   write_buffer(ssbo, counters_, zeros, sizeof zeros);
-  glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
   glBindBufferBase(ubo, shader::grid_block_binding, grid_block_.name());
   glBindBufferBase(ssbo, shader::counters_buffer, counters_.name());
   bind_window();
@@ -157,19 +211,22 @@ void Renderer::begin_range(const FrameBlocks& blocks) {
 
 void Renderer::end_range() {
   bind_texture(shader::range_unit, range_);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::tiles_buffer, tile_buffer().name());
   glUseProgram(count_.name());
-  glDispatchCompute(groups(sizes_.height_px, 16), 1, 1);
+  glDispatchCompute(groups(tile_count(), 8), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                            std::span<const float> slopes) {
+                            std::span<const float> slopes, std::span<const RayTile> tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
+  tiles_shown_ = tiles;
+  write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
   glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
-  begin_range(blocks);
+  begin_rays(blocks);
   bind_texture(shader::nodes_unit, nodes_);
   if (!planes.empty()) {
     glUseProgram(sweep_.name());
@@ -178,20 +235,22 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  fill_target(range_target_, ray_cast_);
+  draw_tiles(range_target_, ray_cast_);
   end_range();
 }
 
-void Renderer::fill_target(const Framebuffer& target, const Program& program) {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program) const {
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, sizes_.width_px, sizes_.height_px);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  glBindVertexArray(empty_vertices_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(tiles_shown_.empty() ? single_vertices_.name() : tile_vertices_.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tile_count());
+  glBindVertexArray(0);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -205,15 +264,16 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
 
 void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
-  write_buffer(ubo, frame_block_, &blocks.frame, sizeof blocks.frame);
+  write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
-  glBindBufferBase(ubo, shader::frame_block_binding, frame_block_.name());
   glBindBufferBase(ubo, shader::style_block_binding, style_block_.name());
   bind_window();
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  fill_target(colour_target_, shade_);
+  draw_tiles(shaded_target_, shade_);
+  bind_texture(shader::shaded_unit, shaded_);
+  draw_tiles(colour_target_, present_);
   timer_.stamp(pass_count);
   glFlush();
 }
@@ -224,11 +284,25 @@ void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scr
   glBindFramebuffer(GL_FRAMEBUFFER, range_target_.name());
   glReadPixels(0, 0, sizes_.width_px, sizes_.height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                scratch.data());
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const float value = std::bit_cast<float>(scratch[4 * i]);
-    range_m[i] = value < 0      ? std::numeric_limits<float>::quiet_NaN()
-                 : value >= sky ? std::numeric_limits<float>::infinity()
-                                : value;
+  const auto width = static_cast<std::size_t>(sizes_.width_px);
+  const auto shown = [&](int x, int y) {
+    const float value = std::bit_cast<float>(
+        scratch[4 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x))]);
+    return value < 0      ? std::numeric_limits<float>::quiet_NaN()
+           : value >= sky ? std::numeric_limits<float>::infinity()
+                          : value;
+  };
+  const RayTile all{0, 0, RayTile::pair(sizes_.width_px, sizes_.height_px), RayTile::pair(1, 1)};
+  const std::span<const RayTile> whole(&all, 1);
+  for (const RayTile& tile : tiles_shown_.empty() ? whole : tiles_shown_) {
+    const BlockShape block = tile.shape();
+    for (int y = 0; y < tile.height(); ++y) {
+      for (int x = 0; x < tile.width(); ++x) {
+        const auto pixel =
+            static_cast<std::size_t>(tile.y + y) * width + static_cast<std::size_t>(tile.x + x);
+        range_m[pixel] = shown(tile.x + x / block.width, tile.y + y / block.height);
+      }
+    }
   }
 }
 

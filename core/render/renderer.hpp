@@ -6,6 +6,7 @@
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
+#include "core/render/ray_tile.hpp"
 #include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
@@ -54,9 +55,12 @@ class Renderer {
   /// Ends it: counts its pixels as after the module's own passes.
   void end_range();
 
-  /// Draws one frame into the renderer's own targets; `nodes` planes of the grid are swept.
+  /// Draws the ranges of one frame into the renderer's own target, a ray for each block of each
+  /// tile. Owner: `tiles` is looked at again when the picture is shaded or read.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                    std::span<const float> slopes);
+                    std::span<const float> slopes, std::span<const RayTile> tiles);
+  /// From here on every pixel has its own ray: for pictures without terrain, or by others.
+  void use_single_rays() { tiles_shown_ = {}; }
   /// Shades the current range picture into the colour target.
   void shade(const FrameBlocks& blocks, const shader::StyleBlock& style);
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
@@ -76,17 +80,28 @@ class Renderer {
   Renderer() = default;
   Status make_programs(ShaderLog log);
   Status make_storage();
-  void fill_target(const Framebuffer& target, const Program& program);
+  Status make_tiles();
+  void begin_rays(const FrameBlocks& blocks);
+  /// Draws all tiles with a program into a target.
+  void draw_tiles(const Framebuffer& target, const Program& program) const;
+  [[nodiscard]] const Buffer& tile_buffer() const {
+    return tiles_shown_.empty() ? single_tiles_ : tiles_;
+  }
+  [[nodiscard]] int tile_count() const;
+  void write_frame_block(const FrameBlocks& blocks);
   void bind_window() const;
   /// Where a pyramid level stands in its layer; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program sweep_, ray_cast_, count_, shade_;
-  Texture posts_, highest_, nodes_, range_, colour_, text_;
+  Program sweep_, ray_cast_, count_, shade_, present_;
+  Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
-  Framebuffer range_target_, colour_target_;
-  VertexArray empty_vertices_;
+  Buffer tiles_, single_tiles_;
+  std::span<const RayTile> tiles_shown_;  ///< the caller's; empty: single rays
+  int single_count_ = 0;
+  Framebuffer range_target_, shaded_target_, colour_target_;
+  VertexArray tile_vertices_, single_vertices_;
   GpuTimer timer_;
 };
 

@@ -43,6 +43,10 @@ PoseValue true_from_magnetic(const OwnshipState& state, PoseValue magnetic, std:
                              const StateLimits& limits) {
   const PoseValue variation =
       pose_value(state, BusParameter::magnetic_variation, now_ns, limits.variation_timeout_ns);
+  if (variation.validity == Validity::missing && limits.fixed_variation_deg) {
+    magnetic.value += *limits.fixed_variation_deg;
+    return magnetic;
+  }
   if (variation.validity != Validity::valid) {
     magnetic.validity = Validity::reference_unknown;
     return magnetic;
@@ -169,6 +173,7 @@ StateLimits state_limits(const BusProfile& profile) {
   StateLimits limits;
   limits.heading_reference = profile.heading_reference;
   limits.variation_east_positive = profile.variation_east_positive;
+  limits.fixed_variation_deg = profile.fixed_variation_deg;
   return limits;
 }
 

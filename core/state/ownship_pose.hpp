@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "config/limits_bus.hpp"
 #include "core/bus/bus_profile.hpp"
@@ -20,6 +21,7 @@ struct StateLimits {
   /// with.
   HeadingReference heading_reference = HeadingReference::unknown;
   bool variation_east_positive = true;
+  std::optional<double> fixed_variation_deg;  ///< east positive; used while none was ever received
 };
 
 /// StateLimits with the defaults of config/limits_bus.hpp and the heading rules of a profile.

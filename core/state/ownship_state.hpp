@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "config/bus_icd.hpp"
-#include "core/bus/double_pairs.hpp"
+#include "core/bus/bus_decoder.hpp"
 
 namespace ridgeline {
 
@@ -17,14 +17,6 @@ enum class Validity : std::uint8_t {
   implausible,        ///< the newest value jumped away from the last good one
   invalid,            ///< the newest value was not finite or out of range
   reference_unknown,  ///< a heading whose reference (true or magnetic) cannot be told
-};
-
-/// Who sent a value.
-struct Source {
-  std::uint8_t interface = 0;  ///< BusFrame::interface
-  std::uint8_t node_id = 0;    ///< sender in the CANaerospace header, 0 where it gives none
-  std::uint16_t channel = 0;   ///< redundancy channel
-  [[nodiscard]] bool operator==(const Source&) const = default;
 };
 
 /// One value with its own age, validity and source. `value` and `time_ns` are those of the last
@@ -57,8 +49,6 @@ struct PendingCoordinate {
 struct PositionPairing {
   PendingCoordinate latitude;
   PendingCoordinate longitude;
-  DoublePairs latitude_halves;
-  DoublePairs longitude_halves;
 };
 
 /// Every frame handed in raises exactly one of the first group; the second counts consequences.
@@ -67,17 +57,24 @@ struct UpdateCounters {
   std::uint32_t decoded = 0;        ///< became a value, or half of one
   std::uint32_t ignored = 0;        ///< identifier not read by the display
   std::uint32_t not_data = 0;       ///< error, remote and CAN FD frames
-  std::uint32_t other_channel = 0;  ///< redundancy channel that is not read
+  std::uint32_t other_channel = 0;  ///< redundancy channel, or index, that is not read
   std::uint32_t other_source = 0;   ///< second sender while the first one is fresh
   std::uint32_t bad_length = 0;
-  std::uint32_t type_mismatch = 0;  ///< also reserved types and positions coded too coarsely
+  /// Also reserved types, positions coded too coarsely, heights without a datum.
+  std::uint32_t type_mismatch = 0;
   std::uint32_t out_of_range = 0;
   std::uint32_t not_finite = 0;
-  std::uint32_t implausible = 0;   ///< jumped, refused
-  std::uint32_t out_of_order = 0;  ///< older than what is held
-  std::uint32_t from_future = 0;   ///< later than `now` by more than the tolerance
+  std::uint32_t bad_parity = 0;
+  std::uint32_t no_computed_data = 0;  ///< the sender says so
+  std::uint32_t functional_test = 0;   ///< the sender says so
+  std::uint32_t failure_warning = 0;   ///< the sender says so
+  std::uint32_t suspect = 0;           ///< quality bits, unreliable digits
+  std::uint32_t unpaired_words = 0;    ///< second words without their first
+  std::uint32_t implausible = 0;       ///< jumped, refused
+  std::uint32_t out_of_order = 0;      ///< older than what is held
+  std::uint32_t from_future = 0;       ///< later than `now` by more than the tolerance
 
-  std::uint32_t unpaired_halves = 0;  ///< halves of a DOUBLE given up
+  std::uint32_t unpaired_halves = 0;  ///< halves of a DOUBLE and coarse words given up
   std::uint32_t unpaired_fixes = 0;   ///< latitudes or longitudes given up
   std::uint32_t jumps_believed = 0;   ///< jumps that persisted
   std::uint32_t source_changes = 0;   ///< parameters taken over by another sender
@@ -94,6 +91,7 @@ struct OwnshipState {
   std::array<std::int64_t, bus_parameter_count> refused_time_ns{};
   PositionPairing gps;
   PositionPairing ins;
+  DecoderMemory decoder;
   std::int64_t now_ns = 0;  ///< of the last update
   UpdateCounters counters;
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/bus/canaerospace.hpp"
+#include "core/bus/bus_decoder.hpp"
 #include "core/state/plausibility.hpp"
 
 namespace ridgeline {
@@ -30,11 +30,6 @@ bool is_of(const FixCoordinates& fix, BusParameter parameter) {
   return parameter == fix.latitude || parameter == fix.longitude;
 }
 
-Source source_of(const BusFrame& frame) {
-  return {frame.interface, frame.length > 0 ? frame.data[0] : std::uint8_t{0},
-          canas_channel(frame)};
-}
-
 void count_fault(UpdateCounters& counters, Fault fault) {
   switch (fault) {
     case Fault::bus_not_data:
@@ -45,11 +40,25 @@ void count_fault(UpdateCounters& counters, Fault fault) {
     case Fault::bus_type_reserved:
     case Fault::bus_type_mismatch:
     case Fault::bus_resolution:
+    case Fault::bus_datum_unknown:
       return bump(counters.type_mismatch);
     case Fault::bus_value_not_finite:
       return bump(counters.not_finite);
     case Fault::bus_value_out_of_range:
       return bump(counters.out_of_range);
+    case Fault::bus_parity:
+      return bump(counters.bad_parity);
+    case Fault::bus_no_computed_data:
+      return bump(counters.no_computed_data);
+    case Fault::bus_functional_test:
+      return bump(counters.functional_test);
+    case Fault::bus_failure_warning:
+      return bump(counters.failure_warning);
+    case Fault::bus_quality:
+    case Fault::bus_digit:
+      return bump(counters.suspect);
+    case Fault::bus_unpaired:
+      return bump(counters.unpaired_words);
     default:
       return bump(counters.ignored);
   }
@@ -197,62 +206,47 @@ void take_coordinate(OwnshipState& state, const FixCoordinates& fix, BusParamete
   bump(state.counters.decoded);
 }
 
-/// Joins halves of a DOUBLE where the frame carries one; nothing while the other half is awaited.
-std::optional<Result<double>> whole_value(OwnshipState& state, const DecodedValue& decoded,
-                                          const BusFrame& frame, const BusProfile& profile) {
-  if (decoded.part == ValuePart::whole) return Result<double>(decoded.value);
-  PositionPairing& pairing = is_of(gps_fix, decoded.parameter) ? state.gps : state.ins;
-  const bool is_latitude = decoded.parameter == BusParameter::gps_latitude ||
-                           decoded.parameter == BusParameter::ins_latitude;
-  DoublePairs& halves = is_latitude ? pairing.latitude_halves : pairing.longitude_halves;
-  const DoublePairStep step = paired_double(halves, decoded, frame, profile);
-  halves = step.next;
-  if (step.unpaired) bump(state.counters.unpaired_halves);
-  if (!step.value) return std::nullopt;
-  return checked_value(icd_row(decoded.parameter), *step.value);
-}
-
-void take_decoded(OwnshipState& state, const DecodedValue& decoded, const BusFrame& frame,
-                  const BusProfile& profile) {
-  const std::optional<Result<double>> value = whole_value(state, decoded, frame, profile);
-  if (!value) return bump(state.counters.decoded);
-  if (!value->ok()) {
-    count_fault(state.counters, value->fault());
-    return refuse_value(state, decoded.parameter, Validity::invalid, frame.time_ns);
-  }
-  const Source source = source_of(frame);
+void take_decoded(OwnshipState& state, const BusValue& decoded, const BusProfile& profile) {
   for (const FixCoordinates& fix : {gps_fix, ins_fix}) {
     if (!is_of(fix, decoded.parameter)) continue;
-    const PendingCoordinate coordinate{true, value->value(), frame.time_ns, source};
+    const PendingCoordinate coordinate{true, decoded.value, decoded.time_ns, decoded.source};
     return take_coordinate(state, fix, decoded.parameter, coordinate, profile);
   }
-  take_value(state, decoded.parameter, value->value(), frame.time_ns, source);
+  take_value(state, decoded.parameter, decoded.value, decoded.time_ns, decoded.source);
+}
+
+/// Whether the frame may be looked at; counts it where not.
+bool topic_is_taken(OwnshipState& state, const FrameTopic& topic, std::int64_t time_ns) {
+  UpdateCounters& counters = state.counters;
+  const Sample& held = state[topic.parameter];
+  if (!topic.is_read) {
+    bump(counters.other_channel);
+  } else if (time_ns > state.now_ns + limits::future_tolerance_ns) {
+    bump(counters.from_future);
+  } else if (held.validity != Validity::missing && time_ns < held.time_ns) {
+    bump(counters.out_of_order);
+  } else if (!source_is_accepted(state, topic.parameter, topic.source, time_ns)) {
+    bump(counters.other_source);
+  } else {
+    return true;
+  }
+  return false;
 }
 
 void take_frame(OwnshipState& state, const BusFrame& frame, const BusProfile& profile) {
   UpdateCounters& counters = state.counters;
   bump(counters.frames);
-  const BusIcdRow* row = icd_row_of(frame);
-  if (row != nullptr) {
-    if (canas_channel(frame) != profile.channel) return bump(counters.other_channel);
-    if (frame.time_ns > state.now_ns + limits::future_tolerance_ns) {
-      return bump(counters.from_future);
-    }
-    const Sample& held = state[row->parameter];
-    if (held.validity != Validity::missing && frame.time_ns < held.time_ns) {
-      return bump(counters.out_of_order);
-    }
-    if (!source_is_accepted(state, row->parameter, source_of(frame), frame.time_ns)) {
-      return bump(counters.other_source);
-    }
+  const std::optional<FrameTopic> topic = frame_topic(frame, profile);
+  if (topic && !topic_is_taken(state, *topic, frame.time_ns)) return;
+  const DecodeStep step = decoded_frame(state.decoder, frame, profile);
+  state.decoder = step.memory;
+  if (step.unpaired) bump(counters.unpaired_halves);
+  if (step.value) return take_decoded(state, *step.value, profile);
+  if (step.fault == Fault::none) return bump(counters.decoded);
+  count_fault(counters, step.fault);
+  if (topic && disowns_value(step.fault)) {
+    refuse_value(state, topic->parameter, Validity::invalid, frame.time_ns);
   }
-  const Result<DecodedValue> decoded = decode_canaerospace(frame, profile);
-  if (decoded) return take_decoded(state, decoded.value(), frame, profile);
-  count_fault(counters, decoded.fault());
-  const bool value_is_bad = decoded.fault() == Fault::bus_value_not_finite ||
-                            decoded.fault() == Fault::bus_value_out_of_range;
-  if (value_is_bad && row != nullptr)
-    refuse_value(state, row->parameter, Validity::invalid, frame.time_ns);
 }
 
 }  // namespace

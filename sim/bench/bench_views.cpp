@@ -81,7 +81,9 @@ std::vector<BenchView> fixed_views(const std::string& terrain_folder) {
 std::vector<BenchView> log_views(const std::string& log_file, const BusProfile& profile,
                                  int count) {
   std::vector<BenchView> views;
-  const auto log = candump_log(log_file);
+  CandumpOptions log_options;
+  log_options.format = LogFormat::by_content;
+  const auto log = candump_log(log_file, log_options);
   if (!log) return views;
   const std::vector<BusFrame>& frames = log.value().frames;
   const std::int64_t start_ns = frames.front().time_ns;

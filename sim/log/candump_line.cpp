@@ -2,89 +2,26 @@
 
 #include <optional>
 
+#include "config/arinc429_icd.hpp"
+#include "sim/log/log_text.hpp"
+
 namespace ridgeline {
 namespace {
 
-constexpr std::string_view label_prefix = "# ridgeline:";
+using log_text::decimal_number;
+using log_text::hex_digit;
+using log_text::hex_number;
+using log_text::is_digit;
+using log_text::next_word;
+using log_text::trimmed;
+
+constexpr std::string_view label_prefix = "ridgeline:";
 constexpr std::string_view lost_prefix = "DROPCOUNT:";
 constexpr std::size_t longest_interface = 15;
 constexpr std::uint32_t error_flag = 0x20000000;
 constexpr std::uint32_t extended_mask = 0x1fffffff;
 constexpr std::uint32_t standard_mask = 0x7ff;
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-/// The text up to the next blank, which is removed from `rest` together with the blanks after it.
-std::string_view next_word(std::string_view& rest) {
-  std::size_t length = 0;
-  while (length < rest.size() && !is_blank(rest[length])) ++length;
-  const std::string_view word = rest.substr(0, length);
-  rest.remove_prefix(length);
-  while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
-  return word;
-}
-
-int hex_digit(char c) {
-  if (is_digit(c)) return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::optional<std::uint32_t> hex_number(std::string_view text) {
-  if (text.empty() || text.size() > 8) return std::nullopt;
-  std::uint32_t value = 0;
-  for (const char c : text) {
-    if (hex_digit(c) < 0) return std::nullopt;
-    value = value << 4 | static_cast<std::uint32_t>(hex_digit(c));
-  }
-  return value;
-}
-
-/// "sec.frac" as nanoseconds; exact, without a detour over floating point.
-std::optional<std::int64_t> time_ns_of(std::string_view text) {
-  constexpr std::size_t most_second_digits = 10;  // last_second has as many
-  constexpr int fraction_digits = 9;
-  std::int64_t seconds = 0;
-  std::size_t at = 0;
-  for (; at < text.size() && is_digit(text[at]); ++at) {
-    if (at >= most_second_digits) return std::nullopt;
-    seconds = seconds * 10 + (text[at] - '0');
-  }
-  constexpr std::int64_t last_second = 9'223'372'035;
-  if (at == 0 || seconds > last_second) return std::nullopt;
-  std::int64_t fraction_ns = 0;
-  int digits = 0;
-  if (at < text.size()) {
-    if (text[at] != '.' || at + 1 == text.size()) return std::nullopt;
-    for (++at; at < text.size(); ++at) {
-      if (!is_digit(text[at])) return std::nullopt;
-      if (digits == fraction_digits) continue;
-      fraction_ns = fraction_ns * 10 + (text[at] - '0');
-      ++digits;
-    }
-  }
-  for (; digits < fraction_digits; ++digits) fraction_ns *= 10;
-  return seconds * 1'000'000'000 + fraction_ns;
-}
-
-CandumpLine malformed(std::string_view why) {
-  CandumpLine line;
-  line.kind = CandumpLineKind::malformed;
-  line.text = why;
-  return line;
-}
+constexpr std::string_view word_interface = "429", word_prefix = "429.";
 
 /// Reads pairs of hex digits, '.' allowed between them, into the frame; returns what follows the
 /// last pair. A single digit is left over and found by the caller.
@@ -175,28 +112,49 @@ const char* read_frame(std::string_view text, CandumpLine& line) {
   return read_classic_body(body, line);
 }
 
+/// An ARINC 429 word received on port `port`: eight hex digits, as the frame of the convention.
+const char* read_word(std::string_view port, std::string_view text, CandumpLine& line) {
+  const std::optional<std::uint32_t> number = decimal_number(port);
+  if (!number || *number >= arinc429_port_count) return "port of a word is not 0..15";
+  const std::optional<std::uint32_t> word = hex_number(text);
+  if (!word || text.size() != 8) return "word is not eight hexadecimal digits";
+  line.kind = CandumpLineKind::frame;
+  line.interface = word_interface;
+  line.frame.id = arinc429_default_id_base + *number;
+  line.frame.extended = true;
+  line.frame.length = 4;
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    line.frame.data[byte] = static_cast<std::uint8_t>(*word >> (24 - 8 * byte));
+  }
+  return nullptr;
+}
+
 CandumpLine frame_line(std::string_view rest) {
   const std::size_t close = rest.find(')');
-  if (close == std::string_view::npos) return malformed("timestamp is not closed");
-  const std::optional<std::int64_t> time_ns = time_ns_of(trimmed(rest.substr(1, close - 1)));
-  if (!time_ns) return malformed("timestamp is not seconds and a decimal fraction");
+  if (close == std::string_view::npos) return malformed_line("timestamp is not closed");
+  const std::optional<std::int64_t> time_ns =
+      log_text::billionths(trimmed(rest.substr(1, close - 1)));
+  if (!time_ns) return malformed_line("timestamp is not seconds and a decimal fraction");
   rest = trimmed(rest.substr(close + 1));
 
   CandumpLine line;
   line.interface = next_word(rest);
-  if (line.interface.empty()) return malformed("interface is missing");
+  if (line.interface.empty()) return malformed_line("interface is missing");
   if (line.interface.size() > longest_interface) {
-    return malformed("interface name is longer than 15 characters");
+    return malformed_line("interface name is longer than 15 characters");
   }
   const std::string_view frame = next_word(rest);
-  if (frame.empty()) return malformed("frame is missing");
-  const char* why = read_frame(frame, line);
-  if (why != nullptr) return malformed(why);
+  if (frame.empty()) return malformed_line("frame is missing");
+  const bool is_word = line.interface.substr(0, word_prefix.size()) == word_prefix &&
+                       frame.find('#') == std::string_view::npos;
+  const char* why = is_word ? read_word(line.interface.substr(word_prefix.size()), frame, line)
+                            : read_frame(frame, line);
+  if (why != nullptr) return malformed_line(why);
   // The log form of CAN XL prints nothing else; what follows a frame that is skipped is not judged.
   if (line.kind == CandumpLineKind::xl_frame) return line;
   line.frame.time_ns = *time_ns;
   if (!rest.empty() && rest != "R" && rest != "T") {
-    return malformed("text after the frame is neither R nor T");
+    return malformed_line("text after the frame is neither R nor T");
   }
   line.is_sent = rest == "T";
   return line;
@@ -220,6 +178,23 @@ CandumpLine lost_line(std::string_view text) {
 
 }  // namespace
 
+CandumpLine malformed_line(std::string_view why) {
+  CandumpLine line;
+  line.kind = CandumpLineKind::malformed;
+  line.text = why;
+  return line;
+}
+
+CandumpLine comment_line(std::string_view text) {
+  CandumpLine line;
+  line.kind = CandumpLineKind::comment;
+  if (text.substr(0, label_prefix.size()) == label_prefix) {
+    line.kind = CandumpLineKind::label;
+    line.text = trimmed(text.substr(label_prefix.size()));
+  }
+  return line;
+}
+
 CandumpLine candump_line(std::string_view text) {
   text = trimmed(text);
   CandumpLine line;
@@ -227,12 +202,9 @@ CandumpLine candump_line(std::string_view text) {
   if (text.empty()) return line;
   if (text.front() == '(') return frame_line(text);
   if (text.substr(0, lost_prefix.size()) == lost_prefix) return lost_line(text);
-  if (text.front() != '#') return malformed("neither a frame nor a comment");
-  if (text.substr(0, label_prefix.size()) == label_prefix) {
-    line.kind = CandumpLineKind::label;
-    line.text = trimmed(text.substr(label_prefix.size()));
-  }
-  return line;
+  if (text.front() != '#') return malformed_line("neither a frame nor a comment");
+  if (text.size() > 1 && text[1] != ' ') return line;
+  return comment_line(text.size() > 1 ? text.substr(2) : text.substr(1));
 }
 
 }  // namespace ridgeline

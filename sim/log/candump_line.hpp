@@ -27,6 +27,13 @@ struct CandumpLine {
   std::string_view text;         ///< label text for `label`, the reason for `malformed`
 };
 
+/// A line that is none of the others, and why.
+[[nodiscard]] CandumpLine malformed_line(std::string_view why);
+
+/// A comment, or a label where its text begins with "ridgeline:"; `text` without the comment's
+/// mark.
+[[nodiscard]] CandumpLine comment_line(std::string_view text);
+
 /// Takes one line apart; a trailing CR and blanks at either end are ignored.
 /// Grammar: `(` seconds [`.` fraction] `)` blanks interface blanks frame [blanks `R`|`T`], with
 /// frame one of
@@ -34,8 +41,10 @@ struct CandumpLine {
 ///   `_9`..`_F` after 8 `123#R`, `123#R8`, `123#R8_F`  remote `123##1..`                     FD: a
 ///   flags nibble, then up to 64 bytes `20000080#0011..`              error frame: bit 0x20000000
 ///   of 8 digits `12345#81:00:00000000#..`      CAN XL
-/// Units:  the fraction is a decimal fraction of any number of digits; digits beyond 1 ns are cut
-/// off. Source: the formats read by can-utils; field deviations in docs/icd.md.
+/// With interface `429.` port (0..15) the frame may be eight hex digits: an ARINC 429 word, given
+/// as the CAN frame of the convention (docs/icd.md, section 7). Units:  the fraction is a decimal
+/// fraction of any number of digits; digits beyond 1 ns are cut off. Source: the formats read by
+/// can-utils; field deviations in docs/icd.md.
 [[nodiscard]] CandumpLine candump_line(std::string_view line);
 
 }  // namespace ridgeline

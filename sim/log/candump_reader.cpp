@@ -29,7 +29,20 @@ Result<CandumpReader> CandumpReader::open(const std::filesystem::path& path,
   reader.file_.reset(std::fopen(path.c_str(), "rb"));
   if (reader.file_ == nullptr) return Fault::file_unreadable;
   reader.block_.resize(block_bytes);
+  LogFormat format = options.format;
+  if (format == LogFormat::by_content) {
+    reader.fill_block();
+    format = log_format({reader.block_.data(), reader.block_used_}, reader.name_);
+  }
+  reader.parser_ = LineParser(format);
   return reader;
+}
+
+/// Reads the next block of the file; an empty one at its end, or when reading fails.
+void CandumpReader::fill_block() {
+  block_used_ = std::fread(block_.data(), 1, block_.size(), file_.get());
+  block_at_ = 0;
+  read_failed_ = block_used_ == 0 && std::ferror(file_.get()) != 0;
 }
 
 /// Reads the next line into line_, without its end; false at the end of the file.
@@ -39,12 +52,8 @@ bool CandumpReader::read_line() {
   bool any = false;
   while (true) {
     if (block_at_ == block_used_) {
-      block_used_ = std::fread(block_.data(), 1, block_.size(), file_.get());
-      block_at_ = 0;
-      if (block_used_ == 0) {
-        read_failed_ = std::ferror(file_.get()) != 0;
-        return any;
-      }
+      fill_block();
+      if (block_used_ == 0) return any;
     }
     any = true;
     const char* begin = block_.data() + block_at_;
@@ -161,7 +170,7 @@ std::optional<BusFrame> CandumpReader::next() {
     if (statistics_.lines == 1 && text.substr(0, byte_order_mark.size()) == byte_order_mark) {
       text.remove_prefix(byte_order_mark.size());
     }
-    if (const std::optional<BusFrame> frame = taken(candump_line(text))) return frame;
+    if (const std::optional<BusFrame> frame = taken(parser_.line(text))) return frame;
   }
   return std::nullopt;
 }

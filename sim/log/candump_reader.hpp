@@ -11,12 +11,14 @@
 
 #include "core/base/result.hpp"
 #include "core/bus/bus_frame.hpp"
-#include "sim/log/candump_line.hpp"
+#include "sim/log/line_parser.hpp"
 
 namespace ridgeline {
 
 /// How a log is read.
 struct CandumpOptions {
+  /// Vector ASC and PEAK TRC logs are read as well, when told or when their content says so.
+  LogFormat format = LogFormat::candump;
   /// Read 8-digit ids below 0x800 as 11-bit ids: one logger of the field prints them so.
   bool fold_short_ids = false;
 };
@@ -53,9 +55,9 @@ struct CandumpNotes {
   std::vector<std::string> interfaces;  ///< by BusFrame::interface
 };
 
-/// Streams the frames of a `candump -l` / `-L` text log in file order. A bad line is counted, the
-/// first few are kept as "file:line: why"; none ends the reading. Memory does not grow with the
-/// file.
+/// Streams the frames of a text log in file order: `candump -l` / `-L`, Vector ASC or PEAK TRC. A
+/// bad line is counted, the first few are kept as "file:line: why"; none ends the reading. Memory
+/// does not grow with the file.
 class CandumpReader {
  public:
   /// Opens a log. Domain: a readable file, else Fault::file_unreadable.
@@ -76,6 +78,7 @@ class CandumpReader {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   CandumpReader() = default;
+  void fill_block();
   bool read_line();
   std::optional<BusFrame> taken(const CandumpLine& line);
   std::optional<BusFrame> taken_frame(const CandumpLine& line);
@@ -86,6 +89,7 @@ class CandumpReader {
   std::string name_;
   std::unique_ptr<std::FILE, CloseFile> file_;
   CandumpOptions options_;
+  LineParser parser_;
   std::vector<char> block_;
   std::size_t block_used_ = 0;
   std::size_t block_at_ = 0;

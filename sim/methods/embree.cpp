@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -246,20 +247,28 @@ void Embree::trace_strip(int strip) {
   rtcInitIntersectContext(&context);
   context.flags = settings_.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                      : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  // Double up to the start of a row, float along it: a direction is rounded to float anyway.
+  std::array<glm::vec3, packet_rows> starts;
+  for (int r = 0; r < packet_rows; ++r) {
+    const double v = strip * packet_rows + r;
+    starts[static_cast<std::size_t>(r)] = glm::vec3(frame_.first + v * frame_.down);
+  }
+  const glm::vec3 right(frame_.right);
+  RTCRayHit8 rays{};
   for (int left = 0; left < width_px_; left += packet_columns) {
-    RTCRayHit8 rays{};
     for (int k = 0; k < packet; ++k) {
       const int u = left + k % packet_columns, v = strip * packet_rows + k / packet_columns;
       valid[k] = u < width_px_ && v < height_px_ ? -1 : 0;
-      const glm::dvec3 way = frame_.first + static_cast<double>(u) * frame_.right +
-                             static_cast<double>(v) * frame_.down;
-      const glm::vec3 direction(way / std::sqrt(glm::dot(way, way)));
+      const glm::vec3 way =
+          starts[static_cast<std::size_t>(k / packet_columns)] + static_cast<float>(u) * right;
+      const float scale = 1.0F / std::sqrt(glm::dot(way, way));
       rays.ray.org_x[k] = frame_.eye.x;
       rays.ray.org_y[k] = frame_.eye.y;
       rays.ray.org_z[k] = frame_.eye.z;
-      rays.ray.dir_x[k] = direction.x;
-      rays.ray.dir_y[k] = direction.y;
-      rays.ray.dir_z[k] = direction.z;
+      rays.ray.dir_x[k] = way.x * scale;
+      rays.ray.dir_y[k] = way.y * scale;
+      rays.ray.dir_z[k] = way.z * scale;
+      rays.ray.tnear[k] = 0;
       rays.ray.tfar[k] = frame_.range_m;
       rays.ray.mask[k] = ~0U;
       rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;

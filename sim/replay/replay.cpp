@@ -111,7 +111,9 @@ void tell_progress(int index, int count, const Picture& picture) {
 }  // namespace
 
 Outcome replay(const ReplayOptions& options) {
-  auto read = candump_log(options.log_file);
+  CandumpOptions log_options;
+  log_options.format = LogFormat::by_content;
+  auto read = candump_log(options.log_file, log_options);
   if (!read) {
     return {read.fault(), options.log_file + ": " + std::string(fault_text(read.fault()))};
   }

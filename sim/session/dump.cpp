@@ -37,7 +37,7 @@ nlohmann::ordered_json frame_json(const Picture& picture, const std::string& geo
       promised ? nlohmann::ordered_json(report.bound_px) : nlohmann::ordered_json(nullptr);
   if (promised) {
     json["geometry_px"] = report.budget.geometry_px;
-    json["proven_px"] = report.budget.smallest_px();
+    json["proven_px"] = report.budget.smallest_px() + report.shared_px;
   }
   json["mode"] = mode_word(report.availability.mode);
   json["reasons"] = nlohmann::ordered_json::array();

@@ -174,6 +174,11 @@ Outcome Session::open_renderer() {
   planes_.resize(sizes.planes);
   slopes_.resize(sizes.rows);
   text_.resize(pixels);
+  const auto tiles =
+      static_cast<std::size_t>(most_tiles(image.width_px)) * most_tiles(image.height_px);
+  ray_tiles_.resize(tiles);
+  tile_steepness_.resize(tiles);
+  tile_shapes_.resize(tiles);
   range_words_.resize(4 * pixels);
   rgba_.resize(4 * pixels);
   warm_up();
@@ -188,7 +193,8 @@ void Session::warm_up() {
   nothing.frame.window.z = 1;
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 64.0f, 1.0f / 64.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
-  renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1));
+  renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
+                          std::span(ray_tiles_).first(1));
   renderer_->upload_text(text_);
   renderer_->shade(nothing, shader::StyleBlock{});
   static_cast<void>(renderer_->read_counters());
@@ -209,7 +215,7 @@ Session::~Session() {
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
-  const FrameTables tables{planes_, slopes_, text_};
+  const FrameTables tables{planes_, slopes_, text_, {ray_tiles_, tile_steepness_, tile_shapes_}};
   double start_ms = 0, start_core_ms = 0;
   surface_->make_current();
   picture.problem = prepare(input);

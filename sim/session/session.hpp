@@ -144,6 +144,9 @@ class Session {
   std::vector<PlaneRecord> planes_;
   std::vector<float> slopes_;
   std::vector<std::uint8_t> text_;
+  std::vector<RayTile> ray_tiles_;
+  std::vector<float> tile_steepness_;
+  std::vector<std::uint8_t> tile_shapes_;
   std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
   std::vector<Kept> methods_;

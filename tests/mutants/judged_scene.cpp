@@ -58,33 +58,6 @@ void judge(const sim::SceneOptions& scene, const std::string& dump, int pixels,
 
 }  // namespace
 
-std::vector<sim::Picture> drawn(const DesignedScene& scene) {
-  const sim::SceneOptions options = options_over_land(scene);
-  sim::Session session;
-  require(session.open(options, scene.poses.front().eye));
-  std::vector<sim::Picture> all;
-  for (const ScenePose& pose : scene.poses) {
-    FrameInput input;
-    input.time_ns = std::llround(pose.time_s * 1e9);
-    input.eye = pose.eye;
-    input.attitude = pose.attitude;
-    all.push_back(session.draw(input, true));
-    if (std::getenv("VIEW")) {
-      const TerrainView v = session.terrain().view();
-      std::printf(
-          "view eye %.1f %.1f sizes %d x %d x %d bound %.3f level %.3f geom %.4f range %.0f",
-          v.eye_column, v.eye_row, v.sizes.levels, v.sizes.column_blocks, v.sizes.row_blocks,
-          all.back().report.bound_px, all.back().report.budget.level_px,
-          all.back().report.budget.geometry_px, all.back().report.range_m);
-      for (int l = 0; l < v.sizes.levels; ++l)
-        std::printf(" | %d..%d x %d..%d", v.drawable[l].west, v.drawable[l].east,
-                    v.drawable[l].south, v.drawable[l].north);
-      std::printf("\n");
-    }
-  }
-  return all;
-}
-
 SceneVerdict judged(const DesignedScene& scene, Thoroughness thoroughness) {
   const sim::SceneOptions options = options_over_land(scene);
   const bool hurry = thoroughness == Thoroughness::first_violation;

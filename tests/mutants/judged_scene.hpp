@@ -24,6 +24,4 @@ struct SceneVerdict {
 /// Draws the scene with the real session and has the oracle judge the dumps, frame by frame.
 [[nodiscard]] SceneVerdict judged(const DesignedScene& scene, Thoroughness thoroughness);
 
-[[nodiscard]] std::vector<sim::Picture> drawn(const DesignedScene& scene);
-
 }  // namespace ridgeline::test

@@ -7,15 +7,6 @@
 namespace ridgeline::test {
 namespace {
 
-/// Row and column of a 3" post, from 46 north 8 east.
-struct FinePost {
-  long long row, column;
-};
-
-FinePost fine_post(double latitude_deg, double longitude_deg) {
-  return {std::llround((latitude_deg - 46) * 1200), std::llround((longitude_deg - 8) * 1200)};
-}
-
 /// Hills so smooth that coarse levels hardly differ from them.
 double smooth_m(double latitude_deg, double longitude_deg) {
   return 500 + 200 * std::sin(latitude_deg * 25) * std::sin(longitude_deg * 21);
@@ -105,16 +96,6 @@ void add_rough_scenes(std::vector<DesignedScene>& all) {
        options_of(
            {.image = {192, 64, 60}, .range_km = 30, .gpu_mebibytes = 3, .spacing = wide_wedges}),
        low});
-  all.push_back(
-      {"levels_wedges",
-       "wedges too wide for the finest level, and spires in it",
-       fine("more_points", points(120, 200, 330, 1.0 / 400)),
-       options_of(
-           {.image = {512, 48, 60}, .range_km = 30, .gpu_mebibytes = 5, .spacing = {60.0, 0.3}}),
-       {{{46.5, 8.5, 520}, {0, 0, 0}},
-        {{46.5, 8.5, 560}, {0, 0, 20}},
-        {{46.5, 8.51, 540}, {0, 0, 180}},
-        {{46.5, 8.49, 580}, {0, 0, 160}}}});
 }
 
 void add_arriving_scenes(std::vector<DesignedScene>& all) {

@@ -8,6 +8,7 @@ const std::vector<Mutant>& mutants() {
     for (const auto table : {shader_mutants(), terrain_mutants(), frame_mutants()}) {
       joined.insert(joined.end(), table.begin(), table.end());
     }
+    for (const HarmlessMutant& harmless : harmless_mutants()) joined.push_back(harmless.mutant);
     return joined;
   }();
   return all;

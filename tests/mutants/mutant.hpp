@@ -19,13 +19,15 @@ struct Mutant {
   std::string_view scene;   ///< the designed scene that kills it (tests/mutants/scenes.hpp)
 };
 
-/// A break that no frame can show, and why. Its text is checked as any other.
+/// A break that no frame can show, and why. It is drawn and judged as any other, in the scene where
+/// it should show first, and must be sound there.
 struct HarmlessMutant {
   Mutant mutant;
   std::string_view reason;
 };
 
-/// All of them, those of the shaders first. Index: what set_active_mutant() takes.
+/// All of them, those of the shaders first, the harmless ones last. Index: what set_active_mutant()
+/// takes.
 [[nodiscard]] const std::vector<Mutant>& mutants();
 [[nodiscard]] const std::vector<HarmlessMutant>& harmless_mutants();
 

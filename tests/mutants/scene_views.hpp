@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "tests/mutants/lands.hpp"
@@ -15,6 +16,15 @@ inline DesignedLand coarse(std::string_view name, const CellRange& cells,
 
 inline DesignedLand fine(std::string_view name, sim::HeightFunction height_m) {
   return {name, [=](const std::string& folder) { write_fine_cell(folder, 46, 8, height_m); }};
+}
+
+/// Row and column of a 3" post, from 46 north 8 east.
+struct FinePost {
+  long long row, column;
+};
+
+inline FinePost fine_post(double latitude_deg, double longitude_deg) {
+  return {std::llround((latitude_deg - 46) * 1200), std::llround((longitude_deg - 8) * 1200)};
 }
 
 struct View {
@@ -50,5 +60,9 @@ inline constexpr GridSpacing fine_rows{3.0, 0.1};
 
 /// Scenes whose picture has several levels of the window.
 void add_level_scenes(std::vector<DesignedScene>& all);
+/// Scenes round a pole.
+void add_polar_scenes(std::vector<DesignedScene>& all);
+/// Scenes whose true error is a large share of the bound.
+void add_sharp_scenes(std::vector<DesignedScene>& all);
 
 }  // namespace ridgeline::test

@@ -1,0 +1,367 @@
+#include "core/frame/ray_tiles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/frame/upright.hpp"
+
+namespace ridgeline {
+namespace {
+
+constexpr double rad_per_deg = std::numbers::pi / 180.0;
+constexpr double smallest_radius_m = 6'335'000.0, largest_radius_m = 6'400'000.0;
+constexpr float every_pixel = std::numeric_limits<float>::infinity();  ///< steepness: no sharing
+constexpr float gentle = 0.05F;         ///< ground up to here counts as so steep everywhere
+constexpr double least_depth_m = 0.01;  ///< before the camera: nearer ground is none
+constexpr double least_grip = 0.05;
+constexpr double within_tile = 0.95;  ///< directions inside a tile against those at its corners
+constexpr double neighbour_px = 0.7071;
+constexpr int way_bins = 64;
+
+/// From the largest on; the last: every pixel by itself.
+constexpr std::array shapes{BlockShape{8, 8}, BlockShape{6, 6}, BlockShape{4, 4}, BlockShape{3, 3},
+                            BlockShape{2, 2}, BlockShape{1, 2}, BlockShape{2, 1}, BlockShape{1, 1}};
+constexpr std::size_t single = shapes.size() - 1;
+constexpr double farthest_witness_px = 10.0;
+
+/// A box round some ground in the camera's axes: its middle and three half edges.
+struct GroundBox {
+  glm::dvec3 middle{0.0};
+  std::array<glm::dvec3, 3> half{};
+};
+
+/// Where ground shows in the picture, in tiles, both included; empty when x0 > x1.
+struct TileRect {
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+};
+
+class TilePlan {
+ public:
+  TilePlan(const TerrainKeeper& terrain, const LocalFrame& local, const Camera& camera,
+           const RaySharing& sharing, const RayTileTables& tables, const TileAxis& across,
+           const TileAxis& down)
+      : terrain_(terrain),
+        view_(terrain.view()),
+        local_(local),
+        camera_(camera),
+        sharing_(sharing),
+        tables_(tables),
+        enu_from_ecef_(local.ecef_from_enu.inverse()),
+        camera_from_enu_(glm::transpose(camera.enu_from_camera.columns)),
+        across_(across),
+        down_(down) {}
+
+  /// How steep the ground behind every tile may be.
+  void mark_ground();
+  /// Gives every tile but those at the border its shape: a pixel there may have no other above it.
+  void choose_shapes();
+
+ private:
+  /// By the direction of the vertical, what ground may be so steep.
+  using Steepest = std::array<double, way_bins>;
+
+  void mark_block(const HeldBlock& block);
+  [[nodiscard]] GroundBox box_of(const HeldBlock& block, int part) const;
+  [[nodiscard]] TileRect tiles_of(const GroundBox& box, double margin_px) const;
+  void mark(const TileRect& rect, float steepness);
+  void allow();
+  [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile) const;
+  /// Makes the neighbours of a tile smaller until its pixels find their witnesses there as well.
+  bool settle(int column, int row);
+
+  const TerrainKeeper& terrain_;
+  TerrainView view_;
+  const LocalFrame& local_;
+  const Camera& camera_;
+  const RaySharing& sharing_;
+  const RayTileTables& tables_;
+  Rotation<Enu, Ecef> enu_from_ecef_;
+  glm::dmat3 camera_from_enu_;
+  TileAxis across_, down_;
+  std::size_t largest_ = single;  ///< first shape that the promise allows
+  /// For blocks of one shape beside blocks of another.
+  std::array<std::array<Steepest, shapes.size()>, shapes.size()> allowed_{};
+};
+
+GroundBox TilePlan::box_of(const HeldBlock& block, int part) const {
+  const BlockFacts& facts = block.facts;
+  const int span = block_posts << block.id.level;
+  const double latitude_deg = view_.lattice.latitude_deg(block.id.row * span + span / 2);
+  const double narrow = std::cos(std::clamp(latitude_deg, -89.0, 89.0) * rad_per_deg);
+  const double north_m = largest_radius_m * rad_per_deg * view_.lattice.latitude_step_deg * span;
+  const double east_m =
+      largest_radius_m * rad_per_deg * view_.lattice.longitude_step_deg * span * narrow;
+  const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
+  const double parts = residual_parts;
+  const double east = (part % residual_parts + 0.5) / parts - 0.5;
+  const double north = static_cast<double>(part / residual_parts) / parts + 0.5 / parts - 0.5;
+  // East, north and up over there are those here but for the bend of the Earth between; a cell of
+  // the next block belongs to this one.
+  const double far = glm::length(way.xyz) / smallest_radius_m;
+  const double bend =
+      far * (1.0 + std::abs(std::tan(std::min(std::abs(latitude_deg) + 2.0, 88.0) * rad_per_deg)));
+  const double rise_m =
+      0.5 * (static_cast<double>(facts.highest_m) - static_cast<double>(facts.lowest_m));
+  const double slip_m = bend * (std::hypot(east_m, north_m) + rise_m) + 20.0;
+  const double cell = 2.0 / block_posts;
+  GroundBox box;
+  box.middle = camera_from_enu_ * (way.xyz + glm::dvec3(east * east_m, north * north_m, 0.0));
+  const double half_east = (0.5 / parts + cell) * east_m + slip_m;
+  const double half_north = (0.5 / parts + cell) * north_m + slip_m;
+  box.half = {camera_from_enu_[0] * half_east, camera_from_enu_[1] * half_north,
+              camera_from_enu_[2] * (rise_m + slip_m)};
+  return box;
+}
+
+/// Grows a rectangle of image points by where a point of space shows.
+struct ImageRect {
+  double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
+
+  void add(const Camera& camera, const glm::dvec3& p) {
+    const double u = camera.cx + camera.fx * p.x / p.z, v = camera.cy + camera.fy * p.y / p.z;
+    x0 = std::min(x0, u), x1 = std::max(x1, u);
+    y0 = std::min(y0, v), y1 = std::max(y1, v);
+  }
+};
+
+TileRect TilePlan::tiles_of(const GroundBox& box, double margin_px) const {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t k = 0; k < 8; ++k) {
+    corners[k] = box.middle;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      corners[k] += (k >> axis & 1U) == 1 ? box.half[axis] : -box.half[axis];
+    }
+  }
+  ImageRect image;  // of what of the box is before the eye
+  for (std::size_t k = 0; k < 8; ++k) {
+    const glm::dvec3& p = corners[k];
+    if (p.z >= least_depth_m) image.add(camera_, p);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const glm::dvec3& q = corners[k ^ (std::size_t{1} << axis)];
+      if (p.z >= least_depth_m || q.z < least_depth_m) continue;
+      image.add(camera_, p + (q - p) * ((least_depth_m - p.z) / (q.z - p.z)));
+    }
+  }
+  if (image.x1 < -margin_px || image.y1 < -margin_px || image.x0 > camera_.width_px + margin_px ||
+      image.y0 > camera_.height_px + margin_px) {
+    return {};
+  }
+  return {across_.tile_of(image.x0 - margin_px), down_.tile_of(image.y0 - margin_px),
+          across_.tile_of(image.x1 + margin_px), down_.tile_of(image.y1 + margin_px)};
+}
+
+void TilePlan::mark(const TileRect& rect, float steepness) {
+  for (int y = rect.y0; y <= rect.y1; ++y) {
+    for (int x = rect.x0; x <= rect.x1; ++x) {
+      float& of_tile = tables_.steepness[static_cast<std::size_t>(y * across_.count() + x)];
+      of_tile = std::max(of_tile, steepness);
+    }
+  }
+}
+
+void TilePlan::mark_block(const HeldBlock& block) {
+  const BlockFacts& facts = block.facts;
+  const bool unknown = facts.void_posts > 0 || facts.mixed;
+  if (!unknown && !(facts.residual_m > 0) && facts.steepness <= gentle) return;
+  const double margin_px = sharing_.bound_px + neighbour_px + sharing_.slack_px + 2.0;
+  const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
+  const glm::dvec3 p = camera_from_enu_ * way.xyz;
+  if (p.z < -facts.radius_m || glm::length(p) - facts.radius_m > sharing_.range_m) return;
+  for (int part = 0; part < residual_parts * residual_parts; ++part) {
+    const auto k = static_cast<std::size_t>(part);
+    const bool off = unknown || facts.part_residual_m[k] > 0;
+    const float steepness = off ? every_pixel : facts.part_steepness[k];
+    if (steepness <= gentle) continue;
+    mark(tiles_of(box_of(block, part), margin_px), steepness);
+  }
+}
+
+void TilePlan::mark_ground() {
+  for (int level = 0; level < view_.sizes.levels; ++level) {
+    const PostRect finer =
+        level > 0 ? view_.drawable[static_cast<std::size_t>(level - 1)] : PostRect{};
+    terrain_.levels().over_valid(level, [&](const HeldBlock& block) {
+      const std::int32_t span = block_posts << level;
+      const std::int32_t west = block.id.column * span, south = block.id.row * span;
+      const bool hidden = level > 0 && west >= finer.west && south >= finer.south &&
+                          west + span <= finer.east && south + span <= finer.north;
+      if (!hidden) mark_block(block);
+    });
+  }
+}
+
+void TilePlan::allow() {
+  const double reach_px = std::min(sharing_.bound_px + neighbour_px, farthest_witness_px);
+  largest_ = 0;
+  while (largest_ < single && shapes[largest_].radius_px() > sharing_.slack_px) ++largest_;
+  for (std::size_t s = largest_; s < single; ++s) {
+    for (std::size_t o = largest_; o <= single; ++o) {
+      std::array<double, way_bins + 1> at_edge{};
+      for (std::size_t k = 0; k <= way_bins; ++k) {
+        const double angle = std::numbers::pi * static_cast<double>(k) / way_bins;
+        at_edge[k] = steepest_for_block(shapes[s], shapes[o], {std::cos(angle), std::sin(angle)},
+                                        reach_px, sharing_.geometry_px);
+      }
+      for (std::size_t k = 0; k < way_bins; ++k) {
+        allowed_[s][o][k] = within_tile * std::min(at_edge[k], at_edge[k + 1]);
+      }
+    }
+  }
+}
+
+bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) const {
+  if (shape == single) return true;
+  if (tables_.steepness[index] == every_pixel) return false;
+  const RayTile& tile = tables_.tiles[index];
+  const auto steepness = static_cast<double>(std::max(tables_.steepness[index], gentle));
+  const double earth_rad = sharing_.range_m / smallest_radius_m;
+  const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
+  for (int corner = 0; corner < 4; ++corner) {
+    const double u = tile.x + (corner % 2) * tile.width();
+    const double v = tile.y + (corner / 2) * tile.height();
+    const double x = (u - camera_.cx) / camera_.fx, y = (v - camera_.cy) / camera_.fy;
+    const Upright upright = upright_at(camera_, x, y);
+    if (!(upright.px_per_rad > 0)) return false;
+    const glm::dvec3 ray = glm::normalize(glm::dvec3(x, y, 1.0));
+    const double down_rad = std::asin(std::clamp(-glm::dot(ray, up), -1.0, 1.0)) + earth_rad;
+    const double grip = down_rad > 0 ? std::cos(down_rad) - steepness * std::sin(down_rad) : 1.0;
+    if (grip < least_grip) return false;
+    const double angle = std::atan2(upright.way.y, upright.way.x);
+    const double turn = angle < 0 ? angle + std::numbers::pi : angle;
+    const auto bin = static_cast<std::size_t>(
+        std::clamp(static_cast<int>(turn / std::numbers::pi * way_bins), 0, way_bins - 1));
+    const double stretch = upright.px_per_rad / std::min(camera_.fx, camera_.fy);
+    const double allowed = allowed_[shape][other][bin];
+    if (!(steepness * stretch <= allowed * grip)) return false;
+  }
+  return true;
+}
+
+bool TilePlan::settle(int column, int row) {
+  const auto index_of = [&](int i, int j) {
+    return static_cast<std::size_t>(j * across_.count() + i);
+  };
+  const std::size_t own = index_of(column, row);
+  bool changed = false;
+  for (int j = row - 1; j <= row + 1; ++j) {
+    for (int i = column - 1; i <= column + 1; ++i) {
+      std::uint8_t& beside = tables_.shapes[index_of(i, j)];
+      while (!fits(tables_.shapes[own], beside, own)) {
+        if (beside >= tables_.shapes[own] && beside < single) {
+          tables_.shapes[own] = single;  // not even beside its like: not known to happen
+        } else if (beside == single) {
+          tables_.shapes[own] = single;
+        } else {
+          ++beside;
+          while (beside < single && !fits(beside, beside, index_of(i, j))) ++beside;
+        }
+        changed = true;
+      }
+    }
+  }
+  return changed;
+}
+
+void TilePlan::choose_shapes() {
+  allow();
+  const int columns = across_.count(), rows = down_.count();
+  const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  std::fill_n(tables_.shapes.begin(), count, static_cast<std::uint8_t>(single));
+  for (int j = 1; j + 1 < rows; ++j) {
+    for (int i = 1; i + 1 < columns; ++i) {
+      const auto k = static_cast<std::size_t>(j * columns + i);
+      std::size_t shape = largest_;
+      while (!fits(shape, shape, k)) ++shape;
+      tables_.shapes[k] = static_cast<std::uint8_t>(shape);
+    }
+  }
+  // Shapes only get smaller, so this ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int j = 1; j + 1 < rows; ++j) {
+      for (int i = 1; i + 1 < columns; ++i) changed = settle(i, j) || changed;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const BlockShape& shape = shapes[tables_.shapes[k]];
+    tables_.tiles[k].block = RayTile::pair(shape.width, shape.height);
+  }
+}
+
+}  // namespace
+
+double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
+                          double reach_px, double loss_px) {
+  constexpr double any = 1e3;
+  const glm::dvec2 half(0.5 * (shape.width - 1), 0.5 * (shape.height - 1));
+  const double other_width = 0.5 * (other.width - 1), other_height = 0.5 * (other.height - 1);
+  const double other_up = other_width * std::abs(way.x) + other_height * std::abs(way.y);
+  const double other_beside = other_width * std::abs(way.y) + other_height * std::abs(way.x);
+  const auto value = [&](double above, double beside) {
+    if (above <= loss_px) return 0.0;
+    return beside > 1e-9 ? std::min(any, (above - loss_px) / beside) : any;
+  };
+  const auto off_axis = [&](const glm::dvec2& v) { return std::abs(v.x * way.y - v.y * way.x); };
+  const auto witness = [&](const glm::dvec2& pixel, const glm::dvec2& step, double sign) {
+    // In its own tile another block stands where the lattice of blocks says; in the tile beside its
+    // ray may be anywhere that its pixels allow.
+    const glm::dvec2 to(pixel + step);
+    const glm::dvec2 block(std::floor(to.x / shape.width), std::floor(to.y / shape.height));
+    const glm::dvec2 ray = block * glm::dvec2(shape.width, shape.height) + half - pixel;
+    const double same = value(sign * glm::dot(ray, way), off_axis(ray));
+    if (block == glm::dvec2(0.0)) return 0.0;
+    return std::min(same,
+                    value(sign * glm::dot(step, way) - other_up, off_axis(step) + other_beside));
+  };
+  double steepest = any;
+  for (int j = 0; j < shape.height; ++j) {
+    for (int i = 0; i < shape.width; ++i) {
+      const glm::dvec2 pixel(i, j), own = half - pixel;
+      for (const double sign : {1.0, -1.0}) {
+        double best = value(sign * glm::dot(own, way), off_axis(own));
+        for (int k = 1; k <= static_cast<int>(reach_px); ++k) {
+          for (const int side : {-1, 0, 1}) {
+            const bool upright = std::abs(way.x) < 0.7071;
+            const glm::dvec2 step(std::round(sign * k * way.x) + (upright ? side : 0),
+                                  std::round(sign * k * way.y) + (upright ? 0 : side));
+            if (glm::length(step) <= reach_px) best = std::max(best, witness(pixel, step, sign));
+          }
+        }
+        steepest = std::min(steepest, best);
+      }
+    }
+  }
+  return steepest;
+}
+
+RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
+                           const Camera& camera, const RaySharing& sharing,
+                           const RayTileTables& tables) {
+  const int ring_px = static_cast<int>(sharing.bound_px + neighbour_px) + 1;
+  const bool polar = terrain.lattice().polar();  // its blocks have no east and north
+  const bool small = std::min(camera.width_px, camera.height_px) < 4 * ring_px;
+  const bool shared = !polar && !small && sharing.slack_px >= BlockShape{1, 2}.radius_px();
+  const TileAxis across{camera.width_px, shared ? ring_px : 0};
+  const TileAxis down{camera.height_px, shared ? ring_px : 0};
+  RayTilePlan result;
+  result.tiles = put_tiles(across, down, tables.tiles);
+  if (shared) {
+    std::fill_n(tables.steepness.begin(), result.tiles, 0.0F);
+    TilePlan plan(terrain, local, camera, sharing, tables, across, down);
+    plan.mark_ground();
+    plan.choose_shapes();
+  }
+  for (const RayTile& tile : tables.tiles.first(static_cast<std::size_t>(result.tiles))) {
+    const BlockShape shape = tile.shape();
+    result.rays += ((tile.width() + shape.width - 1) / shape.width) *
+                   ((tile.height() + shape.height - 1) / shape.height);
+    result.shared_px = std::max(result.shared_px, shape.radius_px());
+  }
+  return result;
+}
+
+}  // namespace ridgeline

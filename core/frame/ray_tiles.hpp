@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "core/frame/terrain_keeper.hpp"
+#include "core/geo/camera.hpp"
+#include "core/render/ray_tile.hpp"
+
+namespace ridgeline {
+
+/// What one ray for several pixels may cost, and what ground allows it.
+struct RaySharing {
+  double range_m = 0;
+  double slack_px = 0;     ///< of the promised bound, left by everything else
+  double bound_px = 0;     ///< promised
+  double geometry_px = 0;  ///< what rounding can move a ray by
+};
+
+/// Memory of the plan. Shape: most_tiles(width) * most_tiles(height) of each.
+struct RayTileTables {
+  std::span<RayTile> tiles;
+  std::span<float> steepness;
+  std::span<std::uint8_t> shapes;
+};
+
+struct RayTilePlan {
+  int tiles = 0;
+  int rays = 0;          ///< of all tiles
+  double shared_px = 0;  ///< largest distance of a pixel from its ray
+};
+
+/// Cuts the picture into tiles and gives each the largest block of pixels that one ray may stand
+/// for: near enough to every one of them for the promise, and so that nothing that a pixel truly
+/// sees is left out of the pixels round it.
+/// Ground that is drawn with a residual, or beside unknown ground, has a ray for every pixel.
+/// Result: tables.tiles is filled.
+/// Cost:   O(blocks of the window + tiles); no allocation.
+/// Source: docs/error_bound.md, section 8.
+RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
+                           const Camera& camera, const RaySharing& sharing,
+                           const RayTileTables& tables);
+
+/// The largest slope of ground, over the share of a turn that it leaves, for which blocks of a
+/// shape lose nothing where the vertical of the picture has a direction; 0 where no ground will do.
+/// `other`: of blocks in the tiles beside. `way`: unit vector in the picture. `reach_px`: of
+/// completeness. `loss_px`: what rounding moves.
+double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
+                          double reach_px, double loss_px);
+
+}  // namespace ridgeline

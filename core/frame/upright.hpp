@@ -1,0 +1,17 @@
+#pragma once
+#include <glm/vec2.hpp>
+
+#include "core/geo/camera.hpp"
+
+namespace ridgeline {
+
+/// How the picture moves at an image point when a ray turns within its vertical plane.
+struct Upright {
+  glm::dvec2 way{0.0};    ///< direction in the picture, of length 1
+  double px_per_rad = 0;  ///< 0 where planes converge
+};
+
+/// At the image point with tangents x to the right and y down.
+Upright upright_at(const Camera& camera, double x, double y);
+
+}  // namespace ridgeline
