@@ -1,5 +1,6 @@
 #include "sim/methods/warp.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "shaders/warp_frag.hpp"
@@ -13,15 +14,20 @@ namespace {
 
 constexpr int positions_unit = 6, slopes_unit = 8;  // as in the shaders
 
+/// Triangles in bands of a few columns, so that each vertex is made once or little more.
 std::vector<std::uint32_t> grid_indices(int side) {
+  constexpr int band = 15;  // cells: their vertices are fewer than a row's way in the cache
   std::vector<std::uint32_t> indices;
   const auto cells = static_cast<std::size_t>(side - 1);
   indices.reserve(6 * cells * cells);
-  for (int row = 0; row + 1 < side; ++row) {
-    for (int column = 0; column + 1 < side; ++column) {
-      const int sw = row * side + column, se = sw + 1, nw = sw + side, ne = nw + 1;
-      for (const int index : {sw, se, ne, sw, ne, nw}) {
-        indices.push_back(static_cast<std::uint32_t>(index));
+  for (int first = 0; first + 1 < side; first += band) {
+    for (int row = 0; row + 1 < side; ++row) {
+      for (int column = first; column < std::min(first + band, side - 1); ++column) {
+        const int sw = row * warp_stride(side) + column, se = sw + 1;
+        const int nw = sw + warp_stride(side), ne = nw + 1;
+        for (const int index : {sw, se, ne, sw, ne, nw}) {
+          indices.push_back(static_cast<std::uint32_t>(index));
+        }
       }
     }
   }

@@ -1,7 +1,7 @@
 // Shared by the passes of the warp method (warp_grid.hpp). The domain is a square round the foot of the
 // eye, 0..1 over twice the display range: v runs along the view, u to the right of it. Densities are
 // vertices a unit of u or v.
-layout(location = 0) uniform highp ivec4 warp_sizes;  // x: texels of the map; y: vertices a side
+layout(location = 0) uniform highp ivec4 warp_sizes;  // x: texels of the map; y: vertices a side; z: as in warp_stride()
 // x: wanted edge, px; y: most vertices a post; z: 1 with detail; w: 1 where some post is unknown
 layout(location = 1) uniform highp vec4 warp_asks;
 layout(location = 2) uniform highp vec2 warp_ahead;  // east and north of the direction of v

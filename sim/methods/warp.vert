@@ -1,4 +1,5 @@
-// One vertex of the warped geometry image; gl_VertexID counts them row by row.
+// One vertex of the warped geometry image; gl_VertexID counts them row by row, in rows of
+// warp_sizes.z.
 layout(binding = 6) uniform highp sampler2D positions_texture;
 out vec2 at;         // post coordinates below the vertex
 out float unknown;
@@ -15,9 +16,9 @@ vec2 posts_below(vec3 p) {
 }
 
 void main() {
-  ivec2 vertex = ivec2(gl_VertexID % warp_sizes.y, gl_VertexID / warp_sizes.y);
+  ivec2 vertex = ivec2(gl_VertexID % warp_sizes.z, gl_VertexID / warp_sizes.z);
   vec4 p = texelFetch(positions_texture, vertex, 0);
-  at = posts_below(p.xyz);
+  at = warp_asks.z + warp_asks.w > 0.5 ? posts_below(p.xyz) : vec2(0.0);  // else nobody asks
   unknown = p.w > 32.0 ? 1.0 : 0.0;
   carried = p.w - 64.0 * unknown;
   gl_Position = clip_of(p.xyz);

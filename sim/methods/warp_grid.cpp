@@ -92,7 +92,7 @@ Outcome WarpGrid::make(const MethodTerrain& terrain) {
 
 void WarpGrid::set_uniforms(bool any_unknown, bool top_first) const {
   const double most = settings_.detail ? posts_with_detail : settings_.posts;
-  glUniform4i(sizes_location, settings_.map, settings_.grid, 0, 0);
+  glUniform4i(sizes_location, settings_.map, settings_.grid, warp_stride(settings_.grid), 0);
   glUniform4f(asks_location, static_cast<float>(settings_.edge), static_cast<float>(most),
               settings_.detail ? 1.0f : 0.0f, any_unknown ? 1.0f : 0.0f);
   glUniform2f(ahead_location, static_cast<float>(ahead_.x), static_cast<float>(ahead_.y));

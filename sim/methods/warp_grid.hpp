@@ -15,6 +15,13 @@ struct WarpSettings {
   bool detail = false;
 };
 
+/// Numbers a row of vertices takes: more than it has, so that neighbouring rows fall into different
+/// places of a vertex cache of a power of two (a software driver's has 256, by number).
+[[nodiscard]] constexpr int warp_stride(int grid) {
+  constexpr int cache = 256, apart = 17;
+  return (grid + cache - 1) / cache * cache + apart;
+}
+
 /// The warp itself: importance map, its blend, row pass, column pass, geometry image; five compute
 /// passes. A context must be current whenever a member is called.
 class WarpGrid {
