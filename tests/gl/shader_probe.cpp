@@ -27,10 +27,12 @@ std::string source_of(std::string_view body) {
   if (end == std::string::npos) give_up("the ray cast pass has no main()");
   text.resize(end);
   cut(text, "layout(location = 0) out highp uint range_bits;");
+  cut(text, "flat in highp ivec4 tile;");
   const std::string_view head = "precision highp int;\n";
   const std::size_t after = text.find(head);
   if (after == std::string::npos) give_up("the ray cast pass has no precision line");
-  text.insert(after + head.size(), "layout(local_size_x = 64) in;\n");
+  text.insert(after + head.size(),
+              "layout(local_size_x = 64) in;\nconst ivec4 tile = ivec4(0, 0, 0, 65537);\n");
   text +=
       "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
       "layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };\n"
