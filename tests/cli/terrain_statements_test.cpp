@@ -124,11 +124,10 @@ TEST_F(Coast, is_edited_together_with_the_sea) {
 
 TEST_F(Coast, is_measured_with_the_list_as_well) {
   write_text(file("flight.log"), level_flight(-45.5, -72.98, 270));
-  const Ended measured =
-      ridgeline({"bench", "--terrain", file("tiles"), "--coverage", list(), "--log",
-                 file("flight.log"), "--size", "64x48", "--range", "6000", "--repeats", "1",
-                 "--pixels", "60", "--methods", "ridgeline:error=0.4,raycast", "--json",
-                 file("bench.json")});
+  const Ended measured = ridgeline({"bench", "--terrain", file("tiles"), "--coverage", list(),
+                                    "--log", file("flight.log"), "--size", "64x48", "--range",
+                                    "6000", "--repeats", "1", "--pixels", "60", "--methods",
+                                    "ridgeline:error=0.4,raycast", "--json", file("bench.json")});
   ASSERT_EQ(measured.status, 0) << measured.err;
   const auto json = nlohmann::json::parse(text_of(file("bench.json")));
   ASSERT_FALSE(json["rows"].empty());

@@ -119,7 +119,8 @@ TEST_F(Eye, on_a_corner_of_four_tiles_one_missing) {
   for (const Patch* land : {&whole, &three}) {
     // A ray for every pixel: beside unknown ground there is no other way, and both are compared.
     Stage stage(*land, {.range_m = 6'000, .error_px = 0.4}, ahead.eye);
-    EXPECT_EQ(std::isnan(shoot(stage, ahead, Promise::plain(0.4)).range_m(in_fourth)), land == &three);
+    EXPECT_EQ(std::isnan(shoot(stage, ahead, Promise::plain(0.4)).range_m(in_fourth)),
+              land == &three);
     const Shot other_way = shoot(stage, back, Promise::plain(0.4));
     if (land == &whole) middle_m = other_way.middle_m();
     EXPECT_EQ(other_way.middle_m(), middle_m);
