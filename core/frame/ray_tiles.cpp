@@ -268,8 +268,8 @@ bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) {
   const double earth_rad = sharing_.range_m / smallest_radius_m;
   const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
   for (int corner = 0; corner < 4; ++corner) {
-    const double u = tile.x + (corner % 2) * tile.width();
-    const double v = tile.y + (corner / 2) * tile.height();
+    const double u = tile.x() + (corner % 2) * tile.width();
+    const double v = tile.y() + (corner / 2) * tile.height();
     const double x = (u - camera_.cx) / camera_.fx, y = (v - camera_.cy) / camera_.fy;
     const Upright upright = upright_at(camera_, x, y);
     if (!(upright.px_per_rad > 0)) return false;
