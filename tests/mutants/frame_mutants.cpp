@@ -10,6 +10,7 @@ constexpr std::string_view levels = "core/frame/level_error.cpp";
 constexpr std::string_view pipeline = "core/frame/frame_pipeline.cpp";
 constexpr std::string_view keeper = "core/frame/terrain_keeper.cpp";
 constexpr std::string_view ground = "core/frame/ground_below.cpp";
+constexpr std::string_view tiles = "core/frame/ray_tiles.cpp";
 constexpr std::string_view grid = "core/geo/polar_grid.cpp";
 
 constexpr Mutant table[] = {
@@ -56,6 +57,14 @@ constexpr Mutant table[] = {
     {"range_not_cut", levels,
      "error.clear_range_m = std::min(error.clear_range_m, chord_share * reach.away_m);", "",
      "the range does not end before blocks that must not be drawn", "levels_voids"},
+
+    // --- shared rays ---
+    {"rays_shared_on_any_slope", tiles, "of_tile = std::max(of_tile, steepness);",
+     "of_tile = std::max(of_tile, std::min(steepness, 0.05F));",
+     "ground counts as gentle whatever it is", "shared_blades"},
+    {"rays_in_larger_blocks", tiles, "steepness * stretch <= allowed(shape, other, bin) * grip",
+     "0.05 * steepness * stretch <= allowed(shape, other, bin) * grip",
+     "blocks are good for ground twenty times as steep", "shared_blades"},
 
     // --- uniforms ---
     {"radii_exchanged", blocks,

@@ -354,6 +354,7 @@ const std::vector<DesignedScene>& designed_scenes() {
     add_other_scenes(scenes);
     add_polar_scenes(scenes);
     add_sharp_scenes(scenes);
+    add_shared_scenes(scenes);
     return scenes;
   }();
   return all;

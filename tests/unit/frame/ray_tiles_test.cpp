@@ -15,7 +15,12 @@ namespace {
 constexpr double most = 1e3;  ///< what steepest_for_block() says where any slope will do
 
 TEST(RayTile, packs_two_numbers) {
-  const RayTile tile{5, 7, RayTile::pair(32, 17), RayTile::pair(6, 3)};
+  const RayTile tile{RayTile::pair(5, 4000), RayTile::pair(4096, 7), RayTile::pair(32, 17),
+                     RayTile::pair(6, 3)};
+  EXPECT_EQ(tile.x(), 5);
+  EXPECT_EQ(tile.y(), 4000);
+  EXPECT_EQ(tile.rays_x(), 4096);
+  EXPECT_EQ(tile.rays_y(), 7);
   EXPECT_EQ(tile.width(), 32);
   EXPECT_EQ(tile.height(), 17);
   EXPECT_EQ(tile.shape().width, 6);
@@ -37,8 +42,8 @@ void expect_cut_once(int width_px, int height_px, int ring_px) {
     EXPECT_EQ(tile.block, RayTile::pair(1, 1));
     EXPECT_GT(tile.width(), 0);
     EXPECT_GT(tile.height(), 0);
-    for (int y = tile.y; y < tile.y + tile.height(); ++y) {
-      for (int x = tile.x; x < tile.x + tile.width(); ++x) {
+    for (int y = tile.y(); y < tile.y() + tile.height(); ++y) {
+      for (int x = tile.x(); x < tile.x() + tile.width(); ++x) {
         ASSERT_LT(x, width_px);
         ASSERT_LT(y, height_px);
         ++covered[static_cast<std::size_t>(y * width_px + x)];
