@@ -37,8 +37,8 @@ void expect_cut_once(int width_px, int height_px, int ring_px) {
     EXPECT_EQ(tile.block, RayTile::pair(1, 1));
     EXPECT_GT(tile.width(), 0);
     EXPECT_GT(tile.height(), 0);
-    for (int y = tile.y; y < tile.y + tile.height(); ++y) {
-      for (int x = tile.x; x < tile.x + tile.width(); ++x) {
+    for (int y = tile.y(); y < tile.y() + tile.height(); ++y) {
+      for (int x = tile.x(); x < tile.x() + tile.width(); ++x) {
         ASSERT_LT(x, width_px);
         ASSERT_LT(y, height_px);
         ++covered[static_cast<std::size_t>(y * width_px + x)];
