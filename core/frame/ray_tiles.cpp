@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/frame/ray_witness.hpp"
 #include "core/frame/upright.hpp"
 
 namespace ridgeline {
@@ -19,14 +20,18 @@ constexpr float gentle = 0.05F;         ///< ground up to here counts as so stee
 constexpr double least_depth_m = 0.01;  ///< before the camera: nearer ground is none
 constexpr double least_grip = 0.05;
 constexpr double beside_rad = 0.1;    ///< beside the picture: more than any margin
-constexpr double within_tile = 0.95;  ///< directions inside a tile against those at its corners
+constexpr double within_tile = 1.05;  ///< what is needed inside a tile against its corners
+constexpr double within_bin = 0.97;   ///< what is allowed between the angles asked
+constexpr int angles_in_bin = 8;
+constexpr double widest_turn_rad = 0.8;  ///< of the vertical within a tile
 constexpr double neighbour_px = 0.7071;
 constexpr int way_bins = 64;
 
 /// From the largest on; the last: every pixel by itself.
 constexpr std::array shapes{BlockShape{8, 8}, BlockShape{6, 6}, BlockShape{4, 4}, BlockShape{3, 3},
                             BlockShape{2, 2}, BlockShape{1, 2}, BlockShape{2, 1}, BlockShape{1, 1}};
-constexpr std::size_t single = shapes.size() - 1;
+constexpr std::size_t single = shapes.size() - 1, upright_pair = single - 2,
+                      level_pair = single - 1;
 constexpr double farthest_witness_px = 10.0;
 
 /// A box round some ground in the camera's axes: its middle and three half edges.
@@ -56,6 +61,8 @@ class TilePlan {
         across_(across),
         down_(down),
         half_diagonal_rad_(camera.half_diagonal_rad(0.0)) {
+    const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
+    left_out_ = std::abs(up.y) >= std::abs(up.x) ? level_pair : upright_pair;
     for (auto& of_shape : allowed_) {
       for (Steepest& of_other : of_shape) of_other.fill(-1.0);
     }
@@ -87,6 +94,14 @@ class TilePlan {
   [[nodiscard]] static GroundBox box_of(const BlockPlace& place, int part);
   [[nodiscard]] TileRect tiles_of(const GroundBox& box, double margin_px) const;
   void mark(const TileRect& rect, float steepness);
+  /// How the picture of a tile lies; not known where the vertical itself is near.
+  struct Look {
+    bool known = false;
+    double down_rad = -1;             ///< largest angle looked down
+    double stretch = 0, skew = 0;     ///< largest, see Upright
+    int first_bin = 0, last_bin = 0;  ///< of the direction of the vertical; may run over the ends
+  };
+  [[nodiscard]] Look look_at(const RayTile& tile) const;
   /// Made when first asked for.
   [[nodiscard]] double allowed(std::size_t shape, std::size_t other, std::size_t bin);
   [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile);
@@ -104,6 +119,9 @@ class TilePlan {
   TileAxis across_, down_;
   double half_diagonal_rad_;
   std::size_t largest_ = 0;  ///< first shape that the promise allows
+  /// Of the two pairs the one that lies across: so every shape holds all smaller ones, and what a
+  /// tile finds beside the largest of its neighbours it finds beside all.
+  std::size_t left_out_ = level_pair;
   /// For blocks of one shape beside blocks of another; negative: not made yet.
   std::array<std::array<Steepest, shapes.size()>, shapes.size()> allowed_{};
 };
@@ -251,38 +269,78 @@ double TilePlan::allowed(std::size_t shape, std::size_t other, std::size_t bin) 
   double& steepest = allowed_[shape][other][bin];
   if (steepest >= 0) return steepest;
   const double reach_px = std::min(sharing_.bound_px + neighbour_px, farthest_witness_px);
-  const auto at = [&](std::size_t edge) {
-    const double angle = std::numbers::pi * static_cast<double>(edge) / way_bins;
-    return steepest_for_block(shapes[shape], shapes[other], {std::cos(angle), std::sin(angle)},
-                              reach_px, sharing_.geometry_px);
-  };
-  steepest = within_tile * std::min(at(bin), at(bin + 1));
+  steepest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= angles_in_bin; ++k) {
+    const double angle = std::numbers::pi *
+                         (static_cast<double>(bin) + static_cast<double>(k) / angles_in_bin) /
+                         way_bins;
+    steepest = std::min(steepest, steepest_for_block(shapes[shape], shapes[other],
+                                                     {std::cos(angle), std::sin(angle)}, reach_px,
+                                                     sharing_.geometry_px));
+  }
+  steepest *= within_bin;
   return steepest;
+}
+
+TilePlan::Look TilePlan::look_at(const RayTile& tile) const {
+  const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
+  // The corners, and the point nearest to where the vertical meets the picture.
+  const double east = tile.x() + tile.width(), south = tile.y() + tile.height();
+  std::array<glm::dvec2, 5> points{glm::dvec2(tile.x(), tile.y()), glm::dvec2(east, tile.y()),
+                                   glm::dvec2(tile.x(), south), glm::dvec2(east, south),
+                                   glm::dvec2(tile.x(), tile.y())};
+  if (std::abs(up.z) > 1e-6) {
+    const glm::dvec2 foot(camera_.cx + camera_.fx * up.x / up.z,
+                          camera_.cy + camera_.fy * up.y / up.z);
+    const double grown_px = sharing_.bound_px + 2.0;
+    if (foot.x > tile.x() - grown_px && foot.x < east + grown_px && foot.y > tile.y() - grown_px &&
+        foot.y < south + grown_px) {
+      return {};
+    }
+    points[4] = {std::clamp(foot.x, 1.0 * tile.x(), east),
+                 std::clamp(foot.y, 1.0 * tile.y(), south)};
+  }
+  Look look;
+  double first = 0, least = 0, most = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double x = (points[k].x - camera_.cx) / camera_.fx;
+    const double y = (points[k].y - camera_.cy) / camera_.fy;
+    const Upright upright = upright_at(camera_, x, y);
+    if (!(upright.px_per_rad > 0)) return {};
+    const glm::dvec3 ray = glm::normalize(glm::dvec3(x, y, 1.0));
+    look.down_rad = std::max(look.down_rad, std::asin(std::clamp(-glm::dot(ray, up), -1.0, 1.0)));
+    look.stretch = std::max(look.stretch, upright.px_per_rad / upright.beside_px_per_rad);
+    look.skew = std::max(look.skew, std::abs(upright.skew));
+    const double angle = std::atan2(upright.way.y, upright.way.x);
+    if (k == 0) first = angle;
+    const double turned = std::remainder(angle - first, std::numbers::pi);
+    least = std::min(least, turned);
+    most = std::max(most, turned);
+  }
+  if (most - least > widest_turn_rad) return {};
+  look.known = true;
+  look.down_rad += sharing_.range_m / smallest_radius_m;
+  const auto bin = [](double angle) {
+    return static_cast<int>(std::floor(angle / std::numbers::pi * way_bins));
+  };
+  look.first_bin = bin(first + least);
+  look.last_bin = bin(first + most);
+  return look;
 }
 
 bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) {
   if (shape == single) return true;
-  if (tables_.steepness[index] == every_pixel) return false;
-  const RayTile& tile = tables_.tiles[index];
+  if (shape == left_out_ || tables_.steepness[index] == every_pixel) return false;
+  const Look look = look_at(tables_.tiles[index]);
+  if (!look.known) return false;
   const auto steepness = static_cast<double>(std::max(tables_.steepness[index], gentle));
-  const double earth_rad = sharing_.range_m / smallest_radius_m;
-  const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
-  for (int corner = 0; corner < 4; ++corner) {
-    const double u = tile.x() + (corner % 2) * tile.width();
-    const double v = tile.y() + (corner / 2) * tile.height();
-    const double x = (u - camera_.cx) / camera_.fx, y = (v - camera_.cy) / camera_.fy;
-    const Upright upright = upright_at(camera_, x, y);
-    if (!(upright.px_per_rad > 0)) return false;
-    const glm::dvec3 ray = glm::normalize(glm::dvec3(x, y, 1.0));
-    const double down_rad = std::asin(std::clamp(-glm::dot(ray, up), -1.0, 1.0)) + earth_rad;
-    const double grip = down_rad > 0 ? std::cos(down_rad) - steepness * std::sin(down_rad) : 1.0;
-    if (grip < least_grip) return false;
-    const double angle = std::atan2(upright.way.y, upright.way.x);
-    const double turn = angle < 0 ? angle + std::numbers::pi : angle;
-    const auto bin = static_cast<std::size_t>(
-        std::clamp(static_cast<int>(turn / std::numbers::pi * way_bins), 0, way_bins - 1));
-    const double stretch = upright.px_per_rad / std::min(camera_.fx, camera_.fy);
-    if (!(steepness * stretch <= allowed(shape, other, bin) * grip)) return false;
+  const double grip =
+      look.down_rad > 0 ? std::cos(look.down_rad) - steepness * std::sin(look.down_rad) : 1.0;
+  if (grip < least_grip) return false;
+  const double needed = within_tile * (steepness / grip * look.stretch + look.skew);
+  for (int bin = look.first_bin; bin <= look.last_bin; ++bin) {
+    const int wrapped_bin = (bin % way_bins + way_bins) % way_bins;
+    if (!(needed <= allowed(shape, other, static_cast<std::size_t>(wrapped_bin)))) return false;
   }
   return true;
 }
@@ -339,50 +397,6 @@ void TilePlan::choose_shapes() {
 }
 
 }  // namespace
-
-double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
-                          double reach_px, double loss_px) {
-  constexpr double any = 1e3;
-  const glm::dvec2 half(0.5 * (shape.width - 1), 0.5 * (shape.height - 1));
-  const double other_width = 0.5 * (other.width - 1), other_height = 0.5 * (other.height - 1);
-  const double other_up = other_width * std::abs(way.x) + other_height * std::abs(way.y);
-  const double other_beside = other_width * std::abs(way.y) + other_height * std::abs(way.x);
-  const auto value = [&](double above, double beside) {
-    if (above <= loss_px) return 0.0;
-    return beside > 1e-9 ? std::min(any, (above - loss_px) / beside) : any;
-  };
-  const auto off_axis = [&](const glm::dvec2& v) { return std::abs(v.x * way.y - v.y * way.x); };
-  const auto witness = [&](const glm::dvec2& pixel, const glm::dvec2& step, double sign) {
-    // In its own tile another block stands where the lattice of blocks says; in the tile beside its
-    // ray may be anywhere that its pixels allow.
-    const glm::dvec2 to(pixel + step);
-    const glm::dvec2 block(std::floor(to.x / shape.width), std::floor(to.y / shape.height));
-    const glm::dvec2 ray = block * glm::dvec2(shape.width, shape.height) + half - pixel;
-    const double same = value(sign * glm::dot(ray, way), off_axis(ray));
-    if (block == glm::dvec2(0.0)) return 0.0;
-    return std::min(same,
-                    value(sign * glm::dot(step, way) - other_up, off_axis(step) + other_beside));
-  };
-  double steepest = any;
-  for (int j = 0; j < shape.height; ++j) {
-    for (int i = 0; i < shape.width; ++i) {
-      const glm::dvec2 pixel(i, j), own = half - pixel;
-      for (const double sign : {1.0, -1.0}) {
-        double best = value(sign * glm::dot(own, way), off_axis(own));
-        for (int k = 1; k <= static_cast<int>(reach_px); ++k) {
-          for (const int side : {-1, 0, 1}) {
-            const bool upright = std::abs(way.x) < 0.7071;
-            const glm::dvec2 step(std::round(sign * k * way.x) + (upright ? side : 0),
-                                  std::round(sign * k * way.y) + (upright ? 0 : side));
-            if (glm::length(step) <= reach_px) best = std::max(best, witness(pixel, step, sign));
-          }
-        }
-        steepest = std::min(steepest, best);
-      }
-    }
-  }
-  return steepest;
-}
 
 RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
                            const Camera& camera, const RaySharing& sharing,

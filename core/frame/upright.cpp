@@ -1,5 +1,6 @@
 #include "core/frame/upright.hpp"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -17,7 +18,13 @@ Upright upright_at(const Camera& camera, double x, double y) {
   const double sine = glm::length(up - glm::dot(up, ray) * ray);
   const double px = glm::length(along);
   if (sine < near_vertical || px < 1e-6) return {};
-  return {along / px, px * std::sqrt(1.0 + x * x + y * y) / sine};
+  const glm::dvec2 way = along / px;
+  // Turned about the vertical by one radian, over the cosine of its elevation.
+  const glm::dvec3 turned = glm::cross(up, ray) / sine;
+  const glm::dvec2 beside(camera.fx * (turned.x - x * turned.z) / ray.z,
+                          camera.fy * (turned.y - y * turned.z) / ray.z);
+  const double square = std::abs(beside.x * way.y - beside.y * way.x);
+  return {way, px * std::sqrt(1.0 + x * x + y * y) / sine, square, glm::dot(beside, way) / square};
 }
 
 }  // namespace ridgeline
