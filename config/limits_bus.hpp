@@ -70,8 +70,8 @@ inline constexpr std::uint8_t position_persist_count = 5;
 /// Extrapolation divides by cos(latitude): none this close to the poles.
 inline constexpr double extrapolation_latitude_limit_deg = 89.5;
 
-/// Longest time the bus thread may be held up without losing a frame: a disk that hangs, a page that
-/// comes late. Of a bus that is full of the shortest frames (47 bits) at 1 Mbit/s.
+/// Longest time the bus thread may be held up without losing a frame: a disk that hangs, a page
+/// that comes late. Of a bus that is full of the shortest frames (47 bits) at 1 Mbit/s.
 inline constexpr std::int64_t can_stall_ns = 250 * ms_ns;
 inline constexpr std::int64_t can_frames_per_second = 21'277;
 /// What one frame costs of a receive buffer: 764 bytes measured on Linux 6.1, rounded up.
