@@ -16,7 +16,7 @@ void main() {
   uint followed = 0u, failed = 0u;
   for (int y = 0; y < rays.y; ++y) {
     for (int x = 0; x < rays.x; ++x) {
-      float value = uintBitsToFloat(texelFetch(range_texture, tile.xy + ivec2(x, y), 0).r);
+      float value = uintBitsToFloat(texelFetch(range_texture, pair_of(tile.y) + ivec2(x, y), 0).r);
       followed += value == proven_sky ? 0u : 1u;
       failed += value == unresolved ? 1u : 0u;
     }

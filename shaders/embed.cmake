@@ -1,7 +1,7 @@
 # Joins version line, shared block file, libraries and one pass into a C++ string.
 # and has glslang check it: an error is a build error.
 # cmake -DOUTPUT=... -DNAME=... -DSTAGE=comp -DVALIDATOR=... -DPARTS="a;b;c" -P embed.cmake
-set(text "#version 310 es\nprecision highp float;\nprecision highp int;\n")
+set(text "#version 310 es\n#ifndef level_count\n#define level_count window.z\n#endif\nprecision highp float;\nprecision highp int;\n")
 set(number 0)
 foreach(part IN LISTS PARTS)
   file(READ "${part}" body)

@@ -56,12 +56,13 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 heights;       // x: highest of the window; y: straight way; z: largest node; w: largest step
   vec4 tolerance;     // x: ground distance where the sweep ends; z: 1/range; yw: swell at the range, 03 21
   ivec4 window;       // xy: low bits of the eye's post; z: levels; w: tiles of the picture
-  vec4 level_size;    // xy: columns and rows of a level; zw: one over them
+  vec4 level_size;    // xy: columns and rows of a level; zw: one over one more, texels
   ivec4 level_eye[6];   // xy: where a level keeps the post south-west of the eye
   ivec4 level_rect[6];  // cells a level can draw: west, south, east, north (ends excluded)
   vec4 level_reach[6];  // x: ground distance up to which its nodes cover a wedge
   vec4 latitude[3];   // ground map in posts, northwards: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // eastwards: 10 11 12 13 | 14 30 31 32 | 50 - - -
+  vec4 ray_target;    // xy: one over the size of the target that holds the rays; zw: unused
   vec4 near_cells[9]; // cells round a low eye, about it: height over the eye, per column, per row, per both
   vec4 near_edges;    // of the eye's cell, in posts from the eye: west, east, south, north
   ivec4 near;         // x: 1 when they are used; y: bit k set where cell k is unknown; zw: unused

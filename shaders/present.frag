@@ -5,11 +5,10 @@ layout(location = 0) out vec4 colour;
 
 // Between the rays of the tile; at its edge that of the nearest block.
 vec3 shaded(ivec2 pixel) {
-  ivec2 block = tile_block(tile);
-  if (block == ivec2(1)) return texelFetch(shaded_texture, pixel, 0).rgb;
-  vec2 ray = (vec2(pixel - tile.xy) + 0.5) / vec2(block);
-  vec2 inside = clamp(ray, vec2(0.5), vec2(tile_rays(tile)) - 0.5);
-  return textureLod(shaded_texture, (vec2(tile.xy) + inside) / vec2(ray_dx.w, ray_dy.w), 0.0).rgb;
+  ivec2 block = pair_of(tile.w), first = pair_of(tile.y), inside = pixel - pair_of(tile.x);
+  if (block == ivec2(1)) return texelFetch(shaded_texture, first + inside, 0).rgb;
+  vec2 ray = clamp((vec2(inside) + 0.5) / vec2(block), vec2(0.5), vec2(tile_rays(tile)) - 0.5);
+  return textureLod(shaded_texture, (vec2(first) + ray) * ray_target.xy, 0.0).rgb;
 }
 
 // Ink of the text layer: a dark plate, words over it.

@@ -98,7 +98,7 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   vec3 offset = vec3(ground_grid.xy + at * ground_grid.zw, height * (1.0 / contour_m));
   // A pixel off the axis is a smaller angle: `direction` is longer than 1 by that much.
   // Where one ray stands for a block of pixels its lines are as much wider.
-  ivec2 block = tile_block(tile);
+  ivec2 block = pair_of(tile.w);
   vec3 px2 = vec3(grid_step.xy, line.x) * dot(direction, direction) /
              (per_pixel2 * float(block.x * block.y));
   vec3 cover = line_cover(offset, px2);

@@ -23,7 +23,7 @@ void store(int row, int plane, float value) {
 // one, so its nodes bound what the neighbouring rays see as well.
 int wedge_level_of(ivec2 low, ivec2 high, int from) {
   int level = from;
-  for (; level < window.z - 1; ++level) {
+  for (; level < level_count - 1; ++level) {
     ivec4 r = level_rect[level];
     int inside = 2 << level;
     if (all(greaterThanEqual(low, r.xy + inside)) && all(lessThanEqual(high, r.zw - inside))) break;
@@ -52,7 +52,7 @@ void main() {
     ++steps;
     // Wedges widen: farther out only coarser levels have nodes whose overlap covers them.
     int level = 0;
-    while (level < window.z - 1 && g >= level_reach[level].x) ++level;
+    while (level < level_count - 1 && g >= level_reach[level].x) ++level;
     float reach = level_reach[level].x;
     float u = g * tolerance.z;
     vec2 at = track_posts(track, u);

@@ -62,9 +62,10 @@ vec2 track_rate(Track t, float u) {
 float over_eye(float height) { return (height - eye.z) - eye.w; }
 
 // The finest level, from `from` on, whose drawable part holds the cells low..high (excluded).
+// level_count is a constant of the module's own passes, set when they are compiled.
 int level_of(ivec2 low, ivec2 high, int from) {
   int level = from;
-  for (; level < window.z - 1; ++level) {
+  for (; level < level_count - 1; ++level) {
     ivec4 r = level_rect[level];
     if (all(greaterThanEqual(low, r.xy)) && all(lessThanEqual(high, r.zw))) break;
   }
@@ -76,15 +77,23 @@ ivec2 level_low(ivec2 cell, int level) {
   return (((window.xy + cell) >> level) << level) - window.xy;
 }
 
-// Where a level keeps the south-west post of that cell; not yet wrapped into its texture.
+// A place of a level's toroidal memory, which may lie one turn outside.
+ivec2 wrapped(ivec2 texel, ivec2 count) {
+  texel += ivec2(lessThan(texel, ivec2(0))) * count;
+  return texel - ivec2(greaterThanEqual(texel, count)) * count;
+}
+
+// Where a level keeps the south-west post of that cell; one turn round at most.
 ivec2 level_texel(ivec2 cell, int level) {
   return level_eye[level].xy + ((window.xy + cell) >> level) - (window.xy >> level);
 }
 
 // The four posts round the point where they meet, half a texel from any other choice. x north-west,
-// y north-east, z south-east, w south-west. The texture repeats: levels are toroidal.
+// y north-east, z south-east, w south-west. Behind its last column and row the texture has the first
+// once more, so that it need not repeat.
 vec4 four_posts(ivec2 texel, int level) {
-  return textureGather(posts_texture, vec3((vec2(texel) + 1.0) * level_size.zw, float(level)));
+  vec2 corner = vec2(wrapped(texel, ivec2(level_size.xy))) + 1.0;
+  return textureGather(posts_texture, vec3(corner * level_size.zw, float(level)));
 }
 
 // One cell of the bilinear surface: height over the eye = h00 + dx fx + dy fy + dxy fx fy.
@@ -132,8 +141,7 @@ float node_highest(ivec2 cell, int size, int level) {
   ivec2 posts = ivec2(level_size.xy);
   ivec2 count = posts >> up;
   ivec2 node = (level_eye[level].xy >> up) + ((window.xy + cell) >> size) - (window.xy >> size);
-  node += ivec2(lessThan(node, ivec2(0))) * count;
-  node -= ivec2(greaterThanEqual(node, count)) * count;
+  node = wrapped(node, count);
   return over_eye(texelFetch(highest_texture, ivec3(node + pyramid_corner(posts, up), level), 0).r);
 }
 

@@ -4,7 +4,7 @@ flat out highp ivec4 tile;
 
 void main() {
   tile = record;
-  vec2 at = vec2(record.xy + ivec2(gl_VertexID & 1, gl_VertexID >> 1) * tile_size(record));
-  vec2 clip = 2.0 * at / vec2(ray_dx.w, ray_dy.w) - 1.0;
-  gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
+  ivec2 corner = ivec2(gl_VertexID & 1, gl_VertexID >> 1) * pair_of(record.z);
+  vec2 at = vec2(pair_of(record.x) + corner) / vec2(ray_dx.w, ray_dy.w);
+  gl_Position = vec4(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y, 0.0, 1.0);
 }

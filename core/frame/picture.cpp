@@ -153,7 +153,7 @@ FrameBlocks camera_blocks(const Camera& camera) {
   blocks.frame.ray_origin = put(camera.ray(0.5, 0.5).xyz, 0.0);
   blocks.frame.earth = {1.57e-7f, 1.57e-7f, 0.0f, 0.0f};
   blocks.frame.window = {0, 0, 1, 0};
-  blocks.frame.level_size = {64.0f, 64.0f, 1.0f / 64.0f, 1.0f / 64.0f};
+  blocks.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   return blocks;
 }
 

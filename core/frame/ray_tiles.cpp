@@ -18,6 +18,7 @@ constexpr float every_pixel = std::numeric_limits<float>::infinity();  ///< stee
 constexpr float gentle = 0.05F;         ///< ground up to here counts as so steep everywhere
 constexpr double least_depth_m = 0.01;  ///< before the camera: nearer ground is none
 constexpr double least_grip = 0.05;
+constexpr double beside_rad = 0.1;    ///< beside the picture: more than any margin
 constexpr double within_tile = 0.95;  ///< directions inside a tile against those at its corners
 constexpr double neighbour_px = 0.7071;
 constexpr int way_bins = 64;
@@ -53,7 +54,12 @@ class TilePlan {
         enu_from_ecef_(local.ecef_from_enu.inverse()),
         camera_from_enu_(glm::transpose(camera.enu_from_camera.columns)),
         across_(across),
-        down_(down) {}
+        down_(down),
+        half_diagonal_rad_(camera.half_diagonal_rad(0.0)) {
+    for (auto& of_shape : allowed_) {
+      for (Steepest& of_other : of_shape) of_other.fill(-1.0);
+    }
+  }
 
   /// How steep the ground behind every tile may be.
   void mark_ground();
@@ -64,12 +70,26 @@ class TilePlan {
   /// By the direction of the vertical, what ground may be so steep.
   using Steepest = std::array<double, way_bins>;
 
+  struct HeightRange {
+    double low_m, high_m;
+  };
+  /// Where a block is, in the camera's axes but for `way`.
+  struct BlockPlace {
+    Vec3<Enu> way;
+    double slip_m = 0;  ///< by which its axes may be off
+    glm::dvec3 middle{0.0}, east{0.0}, north{0.0};
+    glm::dvec3 half_east{0.0}, half_north{0.0}, half_up{0.0};  ///< of a part
+  };
+
   void mark_block(const HeldBlock& block);
-  [[nodiscard]] GroundBox box_of(const HeldBlock& block, int part) const;
+  [[nodiscard]] BlockPlace place_of(const HeldBlock& block, bool unknown) const;
+  void add_neighbours(const BlockId& id, HeightRange& range) const;
+  [[nodiscard]] static GroundBox box_of(const BlockPlace& place, int part);
   [[nodiscard]] TileRect tiles_of(const GroundBox& box, double margin_px) const;
   void mark(const TileRect& rect, float steepness);
-  void allow();
-  [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile) const;
+  /// Made when first asked for.
+  [[nodiscard]] double allowed(std::size_t shape, std::size_t other, std::size_t bin);
+  [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile);
   /// Makes the neighbours of a tile smaller until its pixels find their witnesses there as well.
   bool settle(int column, int row);
 
@@ -82,12 +102,13 @@ class TilePlan {
   Rotation<Enu, Ecef> enu_from_ecef_;
   glm::dmat3 camera_from_enu_;
   TileAxis across_, down_;
-  std::size_t largest_ = single;  ///< first shape that the promise allows
-  /// For blocks of one shape beside blocks of another.
+  double half_diagonal_rad_;
+  std::size_t largest_ = 0;  ///< first shape that the promise allows
+  /// For blocks of one shape beside blocks of another; negative: not made yet.
   std::array<std::array<Steepest, shapes.size()>, shapes.size()> allowed_{};
 };
 
-GroundBox TilePlan::box_of(const HeldBlock& block, int part) const {
+TilePlan::BlockPlace TilePlan::place_of(const HeldBlock& block, bool unknown) const {
   const BlockFacts& facts = block.facts;
   const int span = block_posts << block.id.level;
   const double latitude_deg = view_.lattice.latitude_deg(block.id.row * span + span / 2);
@@ -95,26 +116,50 @@ GroundBox TilePlan::box_of(const HeldBlock& block, int part) const {
   const double north_m = largest_radius_m * rad_per_deg * view_.lattice.latitude_step_deg * span;
   const double east_m =
       largest_radius_m * rad_per_deg * view_.lattice.longitude_step_deg * span * narrow;
-  const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
+  BlockPlace place;
+  place.way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
+  const auto highest_m = static_cast<double>(facts.highest_m);
+  const double lowest_m = std::min(static_cast<double>(facts.lowest_m), highest_m);
+  // Floors of unknown ground have walls down to the ground beside them, which may be another
+  // block's.
+  HeightRange range{lowest_m, highest_m};
+  if (unknown) add_neighbours(block.id, range);
+  // East, north and up over there are those here but for the bend of the Earth between.
+  const double far = glm::length(place.way.xyz) / smallest_radius_m;
+  const double reach_deg = std::min(std::abs(latitude_deg) + 2.0, 88.0);
+  const double bend = far * (1.0 + std::tan(reach_deg * rad_per_deg));
+  const double rise_m = range.high_m - range.low_m;
+  place.slip_m = bend * (std::hypot(east_m, north_m) + rise_m) + 20.0;
+  const double raised_m = 0.5 * (range.low_m + range.high_m) - 0.5 * (lowest_m + highest_m);
+  place.middle = camera_from_enu_ * (place.way.xyz + glm::dvec3(0.0, 0.0, raised_m));
+  place.east = camera_from_enu_[0] * east_m;
+  place.north = camera_from_enu_[1] * north_m;
+  place.half_up = camera_from_enu_[2] * (0.5 * rise_m + place.slip_m);
+  // A cell of the next block that uses a post of this one belongs to this one, too.
+  constexpr double half = 0.5 / residual_parts + 2.0 / block_posts;
+  place.half_east = place.east * half + camera_from_enu_[0] * place.slip_m;
+  place.half_north = place.north * half + camera_from_enu_[1] * place.slip_m;
+  return place;
+}
+
+void TilePlan::add_neighbours(const BlockId& id, HeightRange& range) const {
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      const HeldBlock* beside =
+          terrain_.levels().find({id.level, id.column + column, id.row + row});
+      if (beside == nullptr || beside->facts.known_posts == 0) continue;
+      range.low_m = std::min(range.low_m, static_cast<double>(beside->facts.lowest_m));
+      range.high_m = std::max(range.high_m, static_cast<double>(beside->facts.highest_m));
+    }
+  }
+}
+
+GroundBox TilePlan::box_of(const BlockPlace& place, int part) {
   const double parts = residual_parts;
   const double east = (part % residual_parts + 0.5) / parts - 0.5;
   const double north = static_cast<double>(part / residual_parts) / parts + 0.5 / parts - 0.5;
-  // East, north and up over there are those here but for the bend of the Earth between; a cell of
-  // the next block belongs to this one.
-  const double far = glm::length(way.xyz) / smallest_radius_m;
-  const double bend =
-      far * (1.0 + std::abs(std::tan(std::min(std::abs(latitude_deg) + 2.0, 88.0) * rad_per_deg)));
-  const double rise_m =
-      0.5 * (static_cast<double>(facts.highest_m) - static_cast<double>(facts.lowest_m));
-  const double slip_m = bend * (std::hypot(east_m, north_m) + rise_m) + 20.0;
-  const double cell = 2.0 / block_posts;
-  GroundBox box;
-  box.middle = camera_from_enu_ * (way.xyz + glm::dvec3(east * east_m, north * north_m, 0.0));
-  const double half_east = (0.5 / parts + cell) * east_m + slip_m;
-  const double half_north = (0.5 / parts + cell) * north_m + slip_m;
-  box.half = {camera_from_enu_[0] * half_east, camera_from_enu_[1] * half_north,
-              camera_from_enu_[2] * (rise_m + slip_m)};
-  return box;
+  return {place.middle + place.east * east + place.north * north,
+          {place.half_east, place.half_north, place.half_up}};
 }
 
 /// Grows a rectangle of image points by where a point of space shows.
@@ -130,17 +175,19 @@ struct ImageRect {
 
 TileRect TilePlan::tiles_of(const GroundBox& box, double margin_px) const {
   std::array<glm::dvec3, 8> corners;
+  bool behind = false;
   for (std::size_t k = 0; k < 8; ++k) {
     corners[k] = box.middle;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       corners[k] += (k >> axis & 1U) == 1 ? box.half[axis] : -box.half[axis];
     }
+    behind = behind || corners[k].z < least_depth_m;
   }
   ImageRect image;  // of what of the box is before the eye
   for (std::size_t k = 0; k < 8; ++k) {
     const glm::dvec3& p = corners[k];
     if (p.z >= least_depth_m) image.add(camera_, p);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; behind && axis < 3; ++axis) {
       const glm::dvec3& q = corners[k ^ (std::size_t{1} << axis)];
       if (p.z >= least_depth_m || q.z < least_depth_m) continue;
       image.add(camera_, p + (q - p) * ((least_depth_m - p.z) / (q.z - p.z)));
@@ -167,16 +214,22 @@ void TilePlan::mark_block(const HeldBlock& block) {
   const BlockFacts& facts = block.facts;
   const bool unknown = facts.void_posts > 0 || facts.mixed;
   if (!unknown && !(facts.residual_m > 0) && facts.steepness <= gentle) return;
-  const double margin_px = sharing_.bound_px + neighbour_px + sharing_.slack_px + 2.0;
   const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
+  const double far_m = glm::length(way.xyz);
+  if (far_m - facts.radius_m > sharing_.range_m) return;
   const glm::dvec3 p = camera_from_enu_ * way.xyz;
-  if (p.z < -facts.radius_m || glm::length(p) - facts.radius_m > sharing_.range_m) return;
+  if (!unknown && far_m > facts.radius_m) {  // out of sight
+    const double spread_rad = std::asin(facts.radius_m / far_m);
+    const double off_axis_rad = std::acos(std::clamp(p.z / far_m, -1.0, 1.0));
+    if (off_axis_rad - spread_rad > half_diagonal_rad_ + beside_rad) return;
+  }
+  const double margin_px = sharing_.bound_px + neighbour_px + sharing_.slack_px + 2.0;
+  const BlockPlace place = place_of(block, unknown);
   for (int part = 0; part < residual_parts * residual_parts; ++part) {
     const auto k = static_cast<std::size_t>(part);
     const bool off = unknown || facts.part_residual_m[k] > 0;
     const float steepness = off ? every_pixel : facts.part_steepness[k];
-    if (steepness <= gentle) continue;
-    mark(tiles_of(box_of(block, part), margin_px), steepness);
+    if (steepness > gentle) mark(tiles_of(box_of(place, part), margin_px), steepness);
   }
 }
 
@@ -194,26 +247,20 @@ void TilePlan::mark_ground() {
   }
 }
 
-void TilePlan::allow() {
+double TilePlan::allowed(std::size_t shape, std::size_t other, std::size_t bin) {
+  double& steepest = allowed_[shape][other][bin];
+  if (steepest >= 0) return steepest;
   const double reach_px = std::min(sharing_.bound_px + neighbour_px, farthest_witness_px);
-  largest_ = 0;
-  while (largest_ < single && shapes[largest_].radius_px() > sharing_.slack_px) ++largest_;
-  for (std::size_t s = largest_; s < single; ++s) {
-    for (std::size_t o = largest_; o <= single; ++o) {
-      std::array<double, way_bins + 1> at_edge{};
-      for (std::size_t k = 0; k <= way_bins; ++k) {
-        const double angle = std::numbers::pi * static_cast<double>(k) / way_bins;
-        at_edge[k] = steepest_for_block(shapes[s], shapes[o], {std::cos(angle), std::sin(angle)},
-                                        reach_px, sharing_.geometry_px);
-      }
-      for (std::size_t k = 0; k < way_bins; ++k) {
-        allowed_[s][o][k] = within_tile * std::min(at_edge[k], at_edge[k + 1]);
-      }
-    }
-  }
+  const auto at = [&](std::size_t edge) {
+    const double angle = std::numbers::pi * static_cast<double>(edge) / way_bins;
+    return steepest_for_block(shapes[shape], shapes[other], {std::cos(angle), std::sin(angle)},
+                              reach_px, sharing_.geometry_px);
+  };
+  steepest = within_tile * std::min(at(bin), at(bin + 1));
+  return steepest;
 }
 
-bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) const {
+bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) {
   if (shape == single) return true;
   if (tables_.steepness[index] == every_pixel) return false;
   const RayTile& tile = tables_.tiles[index];
@@ -221,8 +268,8 @@ bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) con
   const double earth_rad = sharing_.range_m / smallest_radius_m;
   const glm::dvec3 up = camera_from_enu_ * glm::dvec3(0, 0, 1);
   for (int corner = 0; corner < 4; ++corner) {
-    const double u = tile.x + (corner % 2) * tile.width();
-    const double v = tile.y + (corner / 2) * tile.height();
+    const double u = tile.x() + (corner % 2) * tile.width();
+    const double v = tile.y() + (corner / 2) * tile.height();
     const double x = (u - camera_.cx) / camera_.fx, y = (v - camera_.cy) / camera_.fy;
     const Upright upright = upright_at(camera_, x, y);
     if (!(upright.px_per_rad > 0)) return false;
@@ -235,8 +282,7 @@ bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) con
     const auto bin = static_cast<std::size_t>(
         std::clamp(static_cast<int>(turn / std::numbers::pi * way_bins), 0, way_bins - 1));
     const double stretch = upright.px_per_rad / std::min(camera_.fx, camera_.fy);
-    const double allowed = allowed_[shape][other][bin];
-    if (!(steepness * stretch <= allowed * grip)) return false;
+    if (!(steepness * stretch <= allowed(shape, other, bin) * grip)) return false;
   }
   return true;
 }
@@ -267,7 +313,7 @@ bool TilePlan::settle(int column, int row) {
 }
 
 void TilePlan::choose_shapes() {
-  allow();
+  while (largest_ < single && shapes[largest_].radius_px() > sharing_.slack_px) ++largest_;
   const int columns = across_.count(), rows = down_.count();
   const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   std::fill_n(tables_.shapes.begin(), count, static_cast<std::uint8_t>(single));

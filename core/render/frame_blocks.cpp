@@ -97,7 +97,7 @@ void put_window(const TerrainView& view, shader::FrameBlock& b) {
   const auto column = static_cast<std::int32_t>(west), row = static_cast<std::int32_t>(south);
   b.window = {column & low_bits, row & low_bits, view.sizes.levels, 0};
   const int columns = view.sizes.columns(), rows = view.sizes.rows();
-  b.level_size = {f(columns), f(rows), f(1.0 / columns), f(1.0 / rows)};
+  b.level_size = {f(columns), f(rows), f(1.0 / (columns + 1)), f(1.0 / (rows + 1))};
   for (int l = 0; l < view.sizes.levels; ++l) {
     b.level_eye[l] = {wrapped(column >> l, columns), wrapped(row >> l, rows), 0, 0};
     const PostRect& rect = view.drawable[static_cast<std::size_t>(l)];

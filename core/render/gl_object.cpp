@@ -9,11 +9,13 @@ namespace {
 std::size_t bytes_allocated = 0;
 
 Result<GLuint> compile(std::string_view name, GLenum stage, std::string_view source,
-                       ShaderLog log) {
+                       std::string_view defines, ShaderLog log) {
   const GLuint shader = glCreateShader(stage);
-  const GLchar* text = source.data();
-  const auto length = static_cast<GLint>(source.size());
-  glShaderSource(shader, 1, &text, &length);
+  const std::size_t version = source.find('\n') + 1;  // must stay the first line
+  const std::array<const GLchar*, 3> text{source.data(), defines.data(), source.data() + version};
+  const std::array<GLint, 3> length{static_cast<GLint>(version), static_cast<GLint>(defines.size()),
+                                    static_cast<GLint>(source.size() - version)};
+  glShaderSource(shader, 3, text.data(), length.data());
   glCompileShader(shader);
   GLint compiled = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -99,7 +101,7 @@ Result<Texture> make_texture_array(GLenum internal_format, int width, int height
     glTexParameteri(GL_TEXTURE_2D_ARRAY, filter, GL_NEAREST);
   }
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, wrap, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, wrap, GL_CLAMP_TO_EDGE);
   }
   bytes_allocated += static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                      static_cast<std::size_t>(layers) * texel_bytes;
@@ -119,18 +121,19 @@ Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage) 
   return buffer;
 }
 
-Result<Program> make_compute_program(std::string_view name, std::string_view source,
-                                     ShaderLog log) {
-  const auto shader = compile(name, GL_COMPUTE_SHADER, source, log);
+Result<Program> make_compute_program(std::string_view name, std::string_view source, ShaderLog log,
+                                     std::string_view defines) {
+  const auto shader = compile(name, GL_COMPUTE_SHADER, source, defines, log);
   if (!shader) return shader.fault();
   return link(name, std::array{shader.value()}, log);
 }
 
 Result<Program> make_draw_program(std::string_view name, std::string_view vertex,
-                                  std::string_view fragment, ShaderLog log) {
-  const auto first = compile(name, GL_VERTEX_SHADER, vertex, log);
+                                  std::string_view fragment, ShaderLog log,
+                                  std::string_view defines) {
+  const auto first = compile(name, GL_VERTEX_SHADER, vertex, defines, log);
   if (!first) return first.fault();
-  const auto second = compile(name, GL_FRAGMENT_SHADER, fragment, log);
+  const auto second = compile(name, GL_FRAGMENT_SHADER, fragment, defines, log);
   if (!second) {
     glDeleteShader(first.value());
     return second.fault();

@@ -55,7 +55,7 @@ using VertexArray = GlObject<delete_vertex_array>;
 Result<Texture> make_texture(GLenum internal_format, int width, int height, int levels,
                              std::size_t texel_bytes);
 
-/// Immutable array of 2-D textures, nearest filtering, repeating in both directions.
+/// Immutable array of 2-D textures, nearest filtering, clamped.
 /// Errors: Fault::gl_out_of_memory.
 Result<Texture> make_texture_array(GLenum internal_format, int width, int height, int layers,
                                    std::size_t texel_bytes);
@@ -68,10 +68,13 @@ Result<Buffer> make_buffer(GLenum target, std::size_t size_bytes, GLenum usage);
 using ShaderLog = void (*)(std::string_view program, std::string_view log);
 
 /// Program of one compute shader. Errors: Fault::gl_shader, after calling `log`.
-Result<Program> make_compute_program(std::string_view name, std::string_view source, ShaderLog log);
+/// `defines`: lines that come right after the first line of every source.
+Result<Program> make_compute_program(std::string_view name, std::string_view source, ShaderLog log,
+                                     std::string_view defines = "");
 
 /// Program of a vertex and a fragment shader. Errors: Fault::gl_shader, after calling `log`.
 Result<Program> make_draw_program(std::string_view name, std::string_view vertex,
-                                  std::string_view fragment, ShaderLog log);
+                                  std::string_view fragment, ShaderLog log,
+                                  std::string_view defines = "");
 
 }  // namespace ridgeline

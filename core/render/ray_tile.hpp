@@ -15,13 +15,18 @@ struct BlockShape {
 
 /// A rectangle of the picture whose pixels share rays in blocks of one shape, as the shaders read
 /// it: as vertex attributes of an instance, and in a storage buffer. The rays of a tile stand in
-/// the targets as a small picture in the tile's corner.
+/// the targets as a small picture that begins at a place of its own.
 struct RayTile {
-  std::int32_t x = 0, y = 0;         ///< its first pixel
+  std::int32_t origin = 0;           ///< first pixel: x, and y * 65536
+  std::int32_t rays = 0;             ///< where its rays begin in the targets, likewise
   std::int32_t size = 0;             ///< width, and height * 65536
   std::int32_t block = 1 | 1 << 16;  ///< width and height of a block, likewise
 
   static constexpr std::int32_t pair(int low, int high) { return low | high << 16; }
+  [[nodiscard]] int x() const { return origin & 0xFFFF; }
+  [[nodiscard]] int y() const { return origin >> 16; }
+  [[nodiscard]] int rays_x() const { return rays & 0xFFFF; }
+  [[nodiscard]] int rays_y() const { return rays >> 16; }
   [[nodiscard]] int width() const { return size & 0xFFFF; }
   [[nodiscard]] int height() const { return size >> 16; }
   [[nodiscard]] BlockShape shape() const { return {block & 0xFFFF, block >> 16}; }
@@ -58,7 +63,14 @@ constexpr int most_tiles(int size_px) {
   return (size_px + ray_tile_px - 1) / ray_tile_px + 2;
 }
 
-/// Cuts a picture into tiles in which every pixel has its own ray; how many.
+/// A side of targets that hold the rays of every tile at a multiple of the tile's side: software
+/// rasterisers work in small squares, and a tile across their borders costs twice.
+constexpr int ray_target_px(int size_px) {
+  return most_tiles(size_px) * ray_tile_px;
+}
+
+/// Cuts a picture into tiles in which every pixel has its own ray; how many. Without a border the
+/// rays stand where their pixels do.
 /// Shape: tiles.size() >= most_tiles(width) * most_tiles(height).
 int put_tiles(const TileAxis& across, const TileAxis& down, std::span<RayTile> tiles);
 

@@ -1,5 +1,6 @@
 #include "core/render/renderer.hpp"
 
+#include <array>
 #include <bit>
 #include <limits>
 
@@ -16,6 +17,16 @@ namespace {
 
 constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
 constexpr float sky = 1e30f;
+
+/// What the passes are compiled for: with the number of levels a constant, loops over them unroll.
+constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
+                                                                     "#define level_count 1\n",
+                                                                     "#define level_count 2\n",
+                                                                     "#define level_count 3\n",
+                                                                     "#define level_count 4\n",
+                                                                     "#define level_count 5\n",
+                                                                     "#define level_count 6\n"};
+static_assert(max_levels == 6);
 
 GLuint groups(int count, int size) {
   return static_cast<GLuint>((count + size - 1) / size);
@@ -35,6 +46,11 @@ GLint limit(GLenum name) {
   GLint value = 0;
   glGetIntegerv(name, &value);
   return value;
+}
+
+/// Puts posts into the array texture that is bound.
+void put_posts(const float* posts, int x, int y, int level, int width, int height) {
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, level, width, height, 1, GL_RED, GL_FLOAT, posts);
 }
 
 /// Takes the value out of a result or hands its fault to the caller.
@@ -74,13 +90,15 @@ Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& 
 }
 
 Status Renderer::make_programs(ShaderLog log) {
+  const std::string_view defines = level_defines[static_cast<std::size_t>(sizes_.window.levels)];
   struct Entry {
     Program* program;
     std::string_view name, source;
   };
   for (const Entry& entry :
        {Entry{&sweep_, "sweep", shader::sweep_comp}, Entry{&count_, "count", shader::count_comp}}) {
-    const Status made = take(make_compute_program(entry.name, entry.source, log), *entry.program);
+    const Status made =
+        take(make_compute_program(entry.name, entry.source, log, defines), *entry.program);
     if (!made) return made;
   }
   struct Drawn {
@@ -91,8 +109,8 @@ Status Renderer::make_programs(ShaderLog log) {
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
         Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
         Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag}}) {
-    const Status made =
-        take(make_draw_program(entry.name, entry.vertex, entry.fragment, log), *entry.program);
+    const Status made = take(
+        make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
     if (!made) return made;
   }
   return {};
@@ -100,11 +118,11 @@ Status Renderer::make_programs(ShaderLog log) {
 
 Status Renderer::make_storage() {
   const int w = sizes_.window.columns(), h = sizes_.window.rows(), levels = sizes_.window.levels;
-  Status s = take(make_texture_array(GL_R32F, w, h, levels, 4), posts_);
+  Status s = take(make_texture_array(GL_R32F, w + 1, h + 1, levels, 4), posts_);
   if (s) s = take(make_texture_array(GL_R32F, w / 2 + w / 4, h / 2, levels, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
-  if (s) s = take(make_texture(GL_R32UI, sizes_.width_px, sizes_.height_px, 1, 4), range_);
-  if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), shaded_);
+  if (s) s = take(make_texture(GL_R32UI, rays_width(), rays_height(), 1, 4), range_);
+  if (s) s = take(make_texture(GL_RGBA8, rays_width(), rays_height(), 1, 4), shaded_);
   if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
   if (s) s = take(make_texture(GL_R8, sizes_.width_px, sizes_.height_px, 1, 1), text_);
   constexpr GLenum ubo = GL_UNIFORM_BUFFER, ssbo = GL_SHADER_STORAGE_BUFFER;
@@ -158,6 +176,8 @@ int Renderer::tile_count() const {
 void Renderer::write_frame_block(const FrameBlocks& blocks) {
   shader::FrameBlock frame = blocks.frame;
   frame.window.w = tile_count();
+  frame.ray_target = {1.0F / static_cast<float>(rays_width()),
+                      1.0F / static_cast<float>(rays_height()), 0.0F, 0.0F};
   write_buffer(GL_UNIFORM_BUFFER, frame_block_, &frame, sizeof frame);
   glBindBufferBase(GL_UNIFORM_BUFFER, shader::frame_block_binding, frame_block_.name());
 }
@@ -166,8 +186,21 @@ void Renderer::upload_block(const TerrainBlock& block, const BlockSlot& slot) {
   const int level = block.id.level;
   glActiveTexture(GL_TEXTURE0 + shader::posts_unit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, posts_.name());
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, slot.column * block_posts, slot.row * block_posts, level,
-                  block_posts, block_posts, 1, GL_RED, GL_FLOAT, block.posts.data());
+  put_posts(block.posts.data(), slot.column * block_posts, slot.row * block_posts, level,
+            block_posts, block_posts);
+  // The first column and row stand behind the last as well: cells there have posts on both sides.
+  const int columns = sizes_.window.columns(), rows = sizes_.window.rows();
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, block_posts);
+  if (slot.column == 0) {
+    put_posts(block.posts.data(), columns, slot.row * block_posts, level, 1, block_posts);
+  }
+  if (slot.row == 0) {
+    put_posts(block.posts.data(), slot.column * block_posts, rows, level, block_posts, 1);
+  }
+  if (slot.column == 0 && slot.row == 0) {
+    put_posts(block.posts.data(), columns, rows, level, 1, 1);
+  }
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glActiveTexture(GL_TEXTURE0 + shader::highest_unit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, highest_.name());
   const float* nodes = block.highest.data();
@@ -235,13 +268,14 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  draw_tiles(range_target_, ray_cast_);
+  draw_tiles(range_target_, ray_cast_, rays_width(), rays_height());
   end_range();
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program) const {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int width,
+                          int height) const {
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-  glViewport(0, 0, sizes_.width_px, sizes_.height_px);
+  glViewport(0, 0, width, height);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_SCISSOR_TEST);
@@ -271,23 +305,23 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  draw_tiles(shaded_target_, shade_);
+  draw_tiles(shaded_target_, shade_, rays_width(), rays_height());
   bind_texture(shader::shaded_unit, shaded_);
-  draw_tiles(colour_target_, present_);
+  draw_tiles(colour_target_, present_, sizes_.width_px, sizes_.height_px);
   timer_.stamp(pass_count);
   glFlush();
 }
 
 void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scratch) {
-  const auto pixels = static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px;
-  RL_ASSERT(range_m.size() == pixels && scratch.size() >= 4 * pixels);
-  glBindFramebuffer(GL_FRAMEBUFFER, range_target_.name());
-  glReadPixels(0, 0, sizes_.width_px, sizes_.height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-               scratch.data());
   const auto width = static_cast<std::size_t>(sizes_.width_px);
+  RL_ASSERT(range_m.size() == width * static_cast<std::size_t>(sizes_.height_px));
+  RL_ASSERT(scratch.size() >= scratch_words(sizes_.width_px, sizes_.height_px));
+  const auto row = static_cast<std::size_t>(rays_width());
+  glBindFramebuffer(GL_FRAMEBUFFER, range_target_.name());
+  glReadPixels(0, 0, rays_width(), rays_height(), GL_RGBA_INTEGER, GL_UNSIGNED_INT, scratch.data());
   const auto shown = [&](int x, int y) {
     const float value = std::bit_cast<float>(
-        scratch[4 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x))]);
+        scratch[4 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x))]);
     return value < 0      ? std::numeric_limits<float>::quiet_NaN()
            : value >= sky ? std::numeric_limits<float>::infinity()
                           : value;
@@ -299,8 +333,8 @@ void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scr
     for (int y = 0; y < tile.height(); ++y) {
       for (int x = 0; x < tile.width(); ++x) {
         const auto pixel =
-            static_cast<std::size_t>(tile.y + y) * width + static_cast<std::size_t>(tile.x + x);
-        range_m[pixel] = shown(tile.x + x / block.width, tile.y + y / block.height);
+            static_cast<std::size_t>(tile.y() + y) * width + static_cast<std::size_t>(tile.x() + x);
+        range_m[pixel] = shown(tile.rays_x() + x / block.width, tile.rays_y() + y / block.height);
       }
     }
   }

@@ -66,6 +66,11 @@ class Renderer {
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
   void upload_text(std::span<const std::uint8_t> layer);
 
+  /// Numbers that read_range() needs to read into.
+  static constexpr std::size_t scratch_words(int width_px, int height_px) {
+    return 4 * static_cast<std::size_t>(ray_target_px(width_px)) *
+           static_cast<std::size_t>(ray_target_px(height_px));
+  }
   /// Waits for the frame and reads the range picture, contract form (inf sky, NaN unknown).
   void read_range(std::span<float> range_m, std::span<std::uint32_t> scratch);
   /// Waits for the frame and reads 8-bit RGBA rows, top row first.
@@ -83,7 +88,9 @@ class Renderer {
   Status make_tiles();
   void begin_rays(const FrameBlocks& blocks);
   /// Draws all tiles with a program into a target.
-  void draw_tiles(const Framebuffer& target, const Program& program) const;
+  void draw_tiles(const Framebuffer& target, const Program& program, int width, int height) const;
+  [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
+  [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
   [[nodiscard]] const Buffer& tile_buffer() const {
     return tiles_shown_.empty() ? single_tiles_ : tiles_;
   }

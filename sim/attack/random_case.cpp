@@ -14,6 +14,9 @@ constexpr double metres_per_degree = 111'195;
 /// Here the disc of completeness holds one pixel centre only (docs/adr/0014).
 constexpr double least_error_px = 0.25;
 
+/// A stream of its own draws the cases of shared rays: the others stay what their seeds made them.
+constexpr std::uint64_t of_shared = 0x7368'6172'6564;
+
 /// Rough posts of longitude a degree that make cells about square.
 int across(int lat_per_deg, double latitude_deg) {
   const double of_quarter = latitude_deg / 90;
@@ -216,9 +219,28 @@ void choose_edits(Random& r, AttackCase& c) {
   }
 }
 
+/// A picture so large, and a bound so wide, that rays may stand for several pixels.
+AttackCase shared_case(Random& r) {
+  AttackCase c;
+  choose_place(r, c);
+  c.at_latitude_deg = std::clamp(c.at_latitude_deg, -75.0, 75.0);
+  choose_patches(r, r.chance(0.25), c);
+  c.image.width_px = static_cast<int>(r.between(100, 300));
+  c.image.height_px = static_cast<int>(r.between(100, 240));
+  c.image.horizontal_field_of_view_deg = r.one_of({10, 20, 40, 60, 60, 90, 120, 120});
+  c.error_px = r.one_of({0.8, 1, 1, 1.5, 2, 2, 3, 4, 5.5, 8});
+  choose_range(r, false, 250, c);
+  if (r.chance(0.15)) choose_coarse_window(r, c);
+  choose_shared_land(r, c);
+  choose_poses(r, CaseLand(c), c);
+  return c;
+}
+
 }  // namespace
 
 AttackCase random_case(std::uint64_t seed, std::uint64_t number) {
+  Random shared(seed ^ of_shared, number);
+  if (shared.chance(0.4)) return shared_case(shared);
   using Arrival = SceneOptions::Arrival;
   Random r(seed, number);
   AttackCase c;

@@ -19,6 +19,9 @@ enum class Roughness : std::uint8_t { any, gentle };
 /// Chooses the layers of the land. Domain: the place and the tiles are chosen.
 void choose_land(Random& random, Roughness roughness, AttackCase& attack_case);
 
+/// The same for a picture in which pixels share rays: mostly ground about as steep as lets them.
+void choose_shared_land(Random& random, AttackCase& attack_case);
+
 /// Chooses the poses, of which the hard ones are the most. Domain: all but the edits is chosen.
 void choose_poses(Random& random, const CaseLand& land, AttackCase& attack_case);
 

@@ -170,7 +170,42 @@ void gentle_family(Random& r, AttackCase& c) {
   if (r.chance(0.4)) add(c, LayerKind::flat, {r.one_of({500, 1'500, -200, 50})});
 }
 
+/// Saw teeth whose flanks rise by about as much as ground may that shares rays.
+void teeth(Random& r, AttackCase& c) {
+  const double slope = r.between(0.2, 1.3);
+  const double tooth_m = with_decimals(slope * post_m(c), 1);
+  switch (r.whole(0, 3)) {
+    case 0:
+      return add(c, LayerKind::checker, {tooth_m, static_cast<double>(r.whole(1, 3))});
+    case 1: {
+      const int spacing = r.whole(2, 6);
+      return add(c, LayerKind::walls,
+                 {with_sign(r, tooth_m), static_cast<double>(spacing), 1, direction(r),
+                  static_cast<double>(r.whole(0, spacing - 1))});
+    }
+    case 2:
+      return add(c, LayerKind::rough, {tooth_m, r.seed()});
+    default: {
+      const double wave = std::round(post_m(c) * r.spread(2, 30));
+      const LayerKind kind = r.chance(0.5) ? LayerKind::fractal : LayerKind::ridges;
+      return add(c, kind, {with_decimals(0.5 * slope * wave, 1), wave, r.seed()});
+    }
+  }
+}
+
 }  // namespace
+
+void choose_shared_land(Random& r, AttackCase& c) {
+  if (r.chance(0.3)) mountains(r, true, c);
+  const int kind = r.whole(0, 9);
+  if (kind < 5) teeth(r, c);
+  if (kind == 4 || kind == 5) spires(r, c);
+  if (kind == 6) walls(r, c);
+  if (kind == 7) cliffs(r, c);
+  if (kind == 8) hardly_sloping(r, c);
+  if (kind == 9) stairs(r, c);
+  if (r.chance(0.08)) voids(r, c);
+}
 
 void choose_land(Random& random, Roughness roughness, AttackCase& c) {
   const bool gentle = roughness == Roughness::gentle;

@@ -70,6 +70,8 @@ void add_measure_options(CLI::App& command, VerifyArguments& arguments) {
           "how rays are followed; the result is the same")
       ->check(CLI::IsMember({"accelerated", "every-cell"}))
       ->default_str("accelerated");
+  command.add_flag("--errors-sampled", options.errors_sampled,
+                   "measure errors of the sampled pixels only; the promise is decided at all");
   command.add_flag("--strict-edge", options.strict_edge,
                    "completeness by pixels of the image alone");
   command.add_flag_function(

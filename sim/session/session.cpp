@@ -179,7 +179,7 @@ Outcome Session::open_renderer() {
   ray_tiles_.resize(tiles);
   tile_steepness_.resize(tiles);
   tile_shapes_.resize(tiles);
-  range_words_.resize(4 * pixels);
+  range_words_.resize(Renderer::scratch_words(image.width_px, image.height_px));
   rgba_.resize(4 * pixels);
   warm_up();
   return {};
@@ -191,7 +191,7 @@ void Session::warm_up() {
   FrameBlocks nothing{};
   nothing.frame.ray_origin.w = -1.0f;  // a display range that every ray has left
   nothing.frame.window.z = 1;
-  nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 64.0f, 1.0f / 64.0f};
+  nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
                           std::span(ray_tiles_).first(1));

@@ -38,7 +38,7 @@ class Coast : public ::testing::Test {
   [[nodiscard]] Ended pose(const std::string& dump, const Words& more = {}) const {
     return ridgeline(
         joined({"pose", latitude_, "-72.98", "700", "0", "-10", "270", "--terrain", file("tiles"),
-                "--size", "64x48", "--range", "6000", "--dump", file(dump)},
+                "--size", "64x48", "--range", "6000", "--error", "0.4", "--dump", file(dump)},
                more));
   }
   [[nodiscard]] Ended verify(const std::string& dump, const Words& more = {}) const {
@@ -59,7 +59,7 @@ class Coast : public ::testing::Test {
   void expect_sea(const std::string& dump) const {
     const Ended drawn = pose(dump, {"--coverage", list()});
     ASSERT_EQ(drawn.status, 0) << drawn.err;
-    ASSERT_NE(drawn.out.find("svs: bound 1.000 px"), std::string::npos) << drawn.out << drawn.err;
+    ASSERT_NE(drawn.out.find("svs: bound 0.400 px"), std::string::npos) << drawn.out << drawn.err;
     EXPECT_NEAR(range_beyond_m(dump), 2437, 5);  // 700 m below
     const Ended told = verify(dump, {"--coverage", list()});
     EXPECT_EQ(told.status, 0) << told.out << told.err;
@@ -124,10 +124,10 @@ TEST_F(Coast, is_edited_together_with_the_sea) {
 
 TEST_F(Coast, is_measured_with_the_list_as_well) {
   write_text(file("flight.log"), level_flight(-45.5, -72.98, 270));
-  const Ended measured =
-      ridgeline({"bench", "--terrain", file("tiles"), "--coverage", list(), "--log",
-                 file("flight.log"), "--size", "64x48", "--range", "6000", "--repeats", "1",
-                 "--pixels", "60", "--json", file("bench.json")});
+  const Ended measured = ridgeline({"bench", "--terrain", file("tiles"), "--coverage", list(),
+                                    "--log", file("flight.log"), "--size", "64x48", "--range",
+                                    "6000", "--repeats", "1", "--pixels", "60", "--methods",
+                                    "ridgeline:error=0.4,raycast", "--json", file("bench.json")});
   ASSERT_EQ(measured.status, 0) << measured.err;
   const auto json = nlohmann::json::parse(text_of(file("bench.json")));
   ASSERT_FALSE(json["rows"].empty());

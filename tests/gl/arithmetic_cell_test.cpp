@@ -206,8 +206,8 @@ TEST(Arithmetic, four_posts_are_the_four_posts) {
     const int rows = 192;
     ProbeFrame frame = level_frame(0);
     frame.blocks.frame.level_size = {static_cast<float>(columns), static_cast<float>(rows),
-                                     static_cast<float>(1.0 / columns),
-                                     static_cast<float>(1.0 / rows)};
+                                     static_cast<float>(1.0 / (columns + 1)),
+                                     static_cast<float>(1.0 / (rows + 1))};
     ProbePosts posts{columns, rows, {}};
     for (int i = 0; i < columns * rows; ++i) posts.heights_m.push_back(static_cast<float>(i));
     probe.set_blocks(frame.blocks);

@@ -27,10 +27,12 @@ std::string source_of(std::string_view body) {
   if (end == std::string::npos) give_up("the ray cast pass has no main()");
   text.resize(end);
   cut(text, "layout(location = 0) out highp uint range_bits;");
+  cut(text, "flat in highp ivec4 tile;");
   const std::string_view head = "precision highp int;\n";
   const std::size_t after = text.find(head);
   if (after == std::string::npos) give_up("the ray cast pass has no precision line");
-  text.insert(after + head.size(), "layout(local_size_x = 64) in;\n");
+  text.insert(after + head.size(),
+              "layout(local_size_x = 64) in;\nconst ivec4 tile = ivec4(0, 0, 0, 65537);\n");
   text +=
       "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
       "layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };\n"
@@ -87,11 +89,19 @@ void ShaderProbe::set_blocks(const FrameBlocks& blocks) {
 }
 
 void ShaderProbe::set_posts(const ProbePosts& posts) {
-  posts_ = taken(make_texture_array(GL_R32F, posts.columns, posts.rows, 1, 4));
+  // As the renderer keeps them: the first column and row behind the last once more.
+  const int columns = posts.columns + 1, rows = posts.rows + 1;
+  std::vector<float> kept;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      kept.push_back(posts.heights_m[static_cast<std::size_t>(y % posts.rows * posts.columns +
+                                                              x % posts.columns)]);
+    }
+  }
+  posts_ = taken(make_texture_array(GL_R32F, columns, rows, 1, 4));
   glActiveTexture(GL_TEXTURE0 + shader::posts_unit);
   glBindTexture(GL_TEXTURE_2D_ARRAY, posts_.name());
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, posts.columns, posts.rows, 1, GL_RED, GL_FLOAT,
-                  posts.heights_m.data());
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, columns, rows, 1, GL_RED, GL_FLOAT, kept.data());
 }
 
 void ShaderProbe::number_nodes(int planes, int rows) {

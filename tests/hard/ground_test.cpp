@@ -10,6 +10,9 @@ namespace {
 
 class Ground : public HardCase {};
 
+/// A bound at which every pixel has a ray of its own, for what is compared pixel by pixel.
+constexpr double single_px = 0.4;
+
 /// Where the ray of a pixel first meets the WGS 84 ellipsoid.
 struct SeaHit {
   double distance_m = std::numeric_limits<double>::infinity();
@@ -81,9 +84,9 @@ TEST_F(Ground, flat_sea) {
   for (const double bytes : {limits::terrain_gpu_bytes, few_bytes}) {
     for (const double height_m : {2.0, 300.0, 8'000.0}) {
       const GeodeticPosition eye = sea.at(180.2, 240.4, height_m);
-      Stage stage(sea, {.gpu_bytes = bytes}, eye);
+      Stage stage(sea, {.error_px = single_px, .gpu_bytes = bytes}, eye);
       const Attitude attitude{12, height_m > 1'000 ? -50.0 : -8.0, 222};
-      const Shot shot = shoot(stage, {eye, attitude}, Promise::plain());
+      const Shot shot = shoot(stage, {eye, attitude}, Promise::plain(single_px));
       EXPECT_GT(expect_ellipsoid(shot, 12'000, 0.03, 1e-4), 2'000);
     }
   }
@@ -189,10 +192,10 @@ TEST_F(Ground, slopes_of_denormal_size) {
     const Patch& land =
         made(shape, [&](int r, int c) { return size_m * ((r * 7 + c * 3) % 5 - 2); });
     const GeodeticPosition eye = land.at(180.2, 240.4, 300);
-    Stage stage(land, {}, eye);
-    const Shot shot = shoot(stage, {eye, {0, -8, 37}}, Promise::plain());
+    Stage stage(land, {.error_px = single_px}, eye);
+    const Shot shot = shoot(stage, {eye, {0, -8, 37}}, Promise::plain(single_px));
     EXPECT_GT(expect_ellipsoid(shot, 12'000, 0.03, 1e-4), 2'000);
-    shoot(stage, {land.at(180, 240, 0.5), {0, -8, 90}}, Promise::plain());
+    shoot(stage, {land.at(180, 240, 0.5), {0, -8, 90}}, Promise::plain(single_px));
   }
   also("the same distances as over the flat sea");
 }

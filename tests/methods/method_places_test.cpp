@@ -95,7 +95,7 @@ TEST_P(Places, polar_chart) {
           height_m(89 + row / (shape.rows - 1.0), west + column / (shape.columns - 1.0)));
     });
   }
-  Scene scene(folder.path(), image, 1.0, 60'000, {89.8, 30, 4000});
+  Scene scene(folder.path(), image, 0.4, 60'000, {89.8, 30, 4000});
   expect_alike(scene, {{89.8, 30, 4000}, {0, -12, 0}});
   expect_alike(scene, {{89.75, -120, 5000}, {15, -20, 140}});
 }
@@ -103,7 +103,7 @@ TEST_P(Places, polar_chart) {
 TEST_P(Places, rim_of_the_known) {
   Land land(smooth_m);
   land.add_tile(46, 8);
-  Scene scene(land, image, 1.0, 40'000, {46.8, 8.5, 3000});
+  Scene scene(land, image, 0.4, 40'000, {46.8, 8.5, 3000});
   expect_alike(scene, {{46.75, 8.5, 3000}, {0, -10, 10}});  // the tile ends 28 km ahead
 }
 

@@ -19,7 +19,11 @@ class MethodStand {
   /// A method that the table does not have.
   sim::Method& use(std::unique_ptr<sim::Method> method);
   /// The module's own passes again.
-  void use_ours() { scene_.session().use(nullptr); }
+  /// With a bound for which every pixel has a ray of its own.
+  void use_ours() {
+    scene_.session().use(nullptr);
+    scene_.settings().error_px = 0.4;
+  }
 
   /// One frame that is not removed.
   sim::Picture draw(const Pose& pose);

@@ -243,9 +243,16 @@ Doubt Judge::search_whole_disc(PixelSearch& search) const {
   return excluded ? Doubt::none : doubt;
 }
 
-void Judge::judge_soundness(double z, const ImagePoint& centre, Judgement& judgement) const {
+void Judge::judge_soundness(double z, const ImagePoint& centre, bool measure,
+                            Judgement& judgement) const {
   if (claims_of(z, judgement.centre, eta).all()) return;
   PixelSearch search(tracer_, camera_, centre, z, eta, judgement.centre);
+  if (!measure) {  // the lowest and the highest ray of the disc are nearly always enough
+    for (const double part : {just_inside, -just_inside}) {
+      search.add(part * bound_px_ * search.down());
+    }
+    if (search.done()) return;
+  }
   search.search_linearly(0.01 * bound_px_, bound_px_ * just_inside);
   for (const double part : {1.0 / 64, 1.0 / 16, 0.125, 0.25, 0.5, 0.75, just_inside}) {
     search.search_cross(part * bound_px_);
@@ -415,7 +422,7 @@ Judgement Judge::judge(const Question& question) const {
   const ImagePoint centre{question.u + 0.5, question.v + 0.5};
   const double z = frame_.z(question.u, question.v);
   judgement.centre = tracer_.first_hit(camera_.direction(centre));
-  judge_soundness(z, centre, judgement);
+  judge_soundness(z, centre, question.error, judgement);
   judge_completeness(centre, z, judgement);
   if (question.between) {
     const ImagePoint point = centre + *question.between;

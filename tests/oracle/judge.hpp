@@ -70,6 +70,7 @@ struct Question {
   /// [-1/2, 1/2].
   std::optional<ImagePoint> between;
   bool without_slack = false;  ///< measure the error without slack as well
+  bool error = true;           ///< measure the error; else only decide whether the pixel is sound
 };
 
 /// Decides the promise of contract.md section 2 at pixels of one frame.
@@ -112,7 +113,8 @@ class Judge {
   /// What the truth at a point lies between.
   enum class Bracket { none, by_edge, by_unknown, by_known };
 
-  void judge_soundness(double z, const ImagePoint& centre, Judgement& judgement) const;
+  void judge_soundness(double z, const ImagePoint& centre, bool measure,
+                       Judgement& judgement) const;
   [[nodiscard]] Doubt search_whole_disc(PixelSearch& search) const;
   void search_rings(PixelSearch& search, double from, double to, int rings, int rays) const;
   void search_around_extremes(PixelSearch& search) const;

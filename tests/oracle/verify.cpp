@@ -84,6 +84,7 @@ struct Outcome {
   double error_px;
   double without_slack_px;
   bool was_sampled;
+  bool was_measured;
   bool error_is_larger;
   bool without_slack_is_larger;
   bool missed_between_centres;
@@ -93,10 +94,11 @@ struct Outcome {
   Verdict completeness;
   Doubt doubt;
 
-  explicit Outcome(const Judgement& judgement)
+  Outcome(const Judgement& judgement, bool measured)
       : error_px(judgement.error_px),
         without_slack_px(judgement.error_without_slack_px.value_or(0)),
         was_sampled(judgement.error_without_slack_px.has_value()),
+        was_measured(measured),
         error_is_larger(judgement.error_is_larger),
         without_slack_is_larger(judgement.error_without_slack_is_larger),
         missed_between_centres(judgement.missed_between_centres),
@@ -131,20 +133,22 @@ class FrameRun {
 
  private:
   [[nodiscard]] Question question(const ChosenPixel& pixel) const {
-    Question question{pixel.u, pixel.v, std::nullopt, pixel.is_sampled};
+    Question question{pixel.u, pixel.v, std::nullopt, pixel.is_sampled,
+                      pixel.is_sampled || !options_.errors_sampled};
     if (options_.asks_between()) question.between = pixel.offset;
     return question;
   }
 
   [[nodiscard]] std::vector<Outcome> judged(const std::vector<ChosenPixel>& pixels) const {
-    std::vector<Outcome> outcomes(pixels.size(), Outcome(Judgement{}));
+    std::vector<Outcome> outcomes(pixels.size(), Outcome(Judgement{}, false));
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
       constexpr std::size_t batch = 64;
       for (std::size_t start = next.fetch_add(batch); start < pixels.size();
            start = next.fetch_add(batch)) {
         for (std::size_t i = start; i < std::min(start + batch, pixels.size()); ++i) {
-          outcomes[i] = Outcome(judge_.judge(question(pixels[i])));
+          const Question asked = question(pixels[i]);
+          outcomes[i] = Outcome(judge_.judge(asked), asked.error);
         }
       }
     };
@@ -177,9 +181,11 @@ class FrameRun {
   }
 
   void add_errors(const Outcome& outcome, VerifySummary& summary, FrameSummary& of_frame) const {
+    ++of_frame.pixels;
+    if (!outcome.was_measured) return;
     summary.errors.add(outcome.error_px, outcome.error_is_larger, *frame_.bound_px,
                        frame_.proven_px);
-    ++of_frame.pixels;
+    ++of_frame.measured_pixels;
     of_frame.error_max_px = std::max(of_frame.error_max_px, outcome.error_px);
     of_frame.error_mean_px += outcome.error_px;
     if (!outcome.was_sampled) return;
@@ -280,7 +286,7 @@ void judge_frame(const Frame& frame, const std::optional<Terrain>& terrain,
   const auto mean = [](double& sum, std::size_t count) {
     if (count > 0) sum /= static_cast<double>(count);
   };
-  mean(of_frame.error_mean_px, of_frame.pixels);
+  mean(of_frame.error_mean_px, of_frame.measured_pixels);
   mean(of_frame.without_slack_mean_px, of_frame.without_slack_pixels);
   summary.each_frame.push_back(std::move(of_frame));
 }

@@ -37,6 +37,8 @@ struct VerifyOptions {
   std::optional<bool> between;
   /// The error without slack is measured at one in so many of the pixels; 0 = nowhere.
   int without_slack_one_in = 16;
+  /// Measure the error with slack of those pixels only, too; of the others only decide the promise.
+  bool errors_sampled = false;
 
   [[nodiscard]] bool asks_between() const { return between.value_or(!all_pixels); }
 };
@@ -52,6 +54,7 @@ struct FrameSummary {
   std::size_t pixels = 0;
   std::size_t violations = 0;  ///< those of the frame as a whole included
   std::size_t undecided = 0;
+  std::size_t measured_pixels = 0;  ///< whose error was
   double error_max_px = 0;
   double error_mean_px = 0;
   std::size_t without_slack_pixels = 0;
