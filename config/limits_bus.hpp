@@ -70,4 +70,17 @@ inline constexpr std::uint8_t position_persist_count = 5;
 /// Extrapolation divides by cos(latitude): none this close to the poles.
 inline constexpr double extrapolation_latitude_limit_deg = 89.5;
 
+/// Longest time the bus thread may be held up without losing a frame: a disk that hangs, a page
+/// that comes late. Of a bus that is full of the shortest frames (47 bits) at 1 Mbit/s.
+inline constexpr std::int64_t can_stall_ns = 250 * ms_ns;
+inline constexpr std::int64_t can_frames_per_second = 21'277;
+/// What one frame costs of a receive buffer: 764 bytes measured on Linux 6.1, rounded up.
+inline constexpr std::int64_t can_buffer_frame_bytes = 768;
+/// How often a CAN interface is asked whether it is there and up; a tenth of what an attitude may
+/// age.
+inline constexpr std::int64_t can_link_check_ns = 30 * ms_ns;
+
+/// Contacts bounce for up to 20 ms; a press is seldom shorter than 80 ms.
+inline constexpr std::int64_t discrete_hold_ns = 40 * ms_ns;
+
 }  // namespace ridgeline::limits
