@@ -27,7 +27,7 @@ TEST(RandomCase, is_small_enough_to_be_judged_in_a_moment) {
   for (std::uint64_t number = 0; number < cases; ++number) {
     const AttackCase c = random_case(11, number);
     ASSERT_LE(c.poses.size(), 8U);
-    EXPECT_LE(c.image.width_px * c.image.height_px, 40'000);
+    EXPECT_LE(c.image.width_px * c.image.height_px, 300 * 240);
     for (const TilePlan& tile : c.tiles) {
       const PostGrid grid = grid_of(tile);
       EXPECT_LE(static_cast<double>(grid.rows) * grid.columns, 1'500'000) << text_of(c);

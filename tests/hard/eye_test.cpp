@@ -120,8 +120,7 @@ TEST_F(Eye, on_a_corner_of_four_tiles_one_missing) {
     Stage stage(*land, {.range_m = 6'000}, ahead.eye);
     // A ray for every pixel: beside unknown ground there is no other way, and both are compared.
     stage.scene.settings().cast_every_pixel = true;
-    EXPECT_EQ(std::isnan(shoot(stage, ahead, Promise::plain()).range_m(in_fourth)),
-              land == &three);
+    EXPECT_EQ(std::isnan(shoot(stage, ahead, Promise::plain()).range_m(in_fourth)), land == &three);
     const Shot other_way = shoot(stage, back, Promise::plain());
     if (land == &whole) middle_m = other_way.middle_m();
     EXPECT_EQ(other_way.middle_m(), middle_m);

@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "core/frame/ray_witness.hpp"
+
 namespace ridgeline {
 namespace {
 
