@@ -62,9 +62,11 @@ constexpr Mutant table[] = {
     {"rays_shared_on_any_slope", tiles, "of_tile = std::max(of_tile, steepness);",
      "of_tile = std::max(of_tile, std::min(steepness, 0.05F));",
      "ground counts as gentle whatever it is", "shared_blades"},
-    {"rays_in_larger_blocks", tiles, "steepness * stretch <= allowed(shape, other, bin) * grip",
-     "0.05 * steepness * stretch <= allowed(shape, other, bin) * grip",
-     "blocks are good for ground twenty times as steep", "shared_blades"},
+    {"rays_in_larger_blocks", tiles, "steepness / grip * look.stretch + look.skew",
+     "0.05 * steepness / grip * look.stretch", "blocks are good for ground twenty times as steep",
+     "shared_blades"},
+    {"tiles_over_the_nadir", tiles, "std::abs(up.z) > 1e-6", "up.z > 1e9",
+     "a tile may hold the place of the vertical", "shared_nadir"},
 
     // --- uniforms ---
     {"radii_exchanged", blocks,
