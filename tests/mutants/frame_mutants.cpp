@@ -65,8 +65,6 @@ constexpr Mutant table[] = {
     {"rays_in_larger_blocks", tiles, "steepness / grip * look.stretch + look.skew",
      "0.05 * steepness / grip * look.stretch", "blocks are good for ground twenty times as steep",
      "shared_blades"},
-    {"tiles_over_the_nadir", tiles, "std::abs(up.z) > 1e-6", "up.z > 1e9",
-     "a tile may hold the place of the vertical", "shared_nadir"},
 
     // --- uniforms ---
     {"radii_exchanged", blocks,

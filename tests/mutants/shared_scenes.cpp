@@ -27,14 +27,6 @@ void add_steep_scenes(std::vector<DesignedScene>& all) {
 }
 
 void add_other_ground_scenes(std::vector<DesignedScene>& all) {
-  // As the random attack found it: a nadir between the corners of a tile.
-  const DesignedLand sea = fine("shared_sea", [](double, double) { return 0.0; });
-  all.push_back({"shared_nadir",
-                 "straight down in a wide picture with large blocks",
-                 sea,
-                 options_of({.image = {178, 178, 120}, .range_km = 5, .error_px = 8}),
-                 {{{46.5013, 8.5027, 375}, {0, -90, 0}}},
-                 178 * 178});
   const DesignedLand holes = fine("pinholes", [](double latitude_deg, double longitude_deg) {
     const bool there = lottery(latitude_deg, longitude_deg) < 0.003;
     const double hills_m = 90 * std::sin(170 * latitude_deg) * std::sin(140 * longitude_deg);
