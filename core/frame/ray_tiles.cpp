@@ -104,7 +104,7 @@ class TilePlan {
   [[nodiscard]] Look look_at(const RayTile& tile) const;
   /// Made when first asked for.
   [[nodiscard]] double allowed(std::size_t shape, std::size_t other, std::size_t bin);
-  [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile);
+  [[nodiscard]] bool fits(std::size_t shape, std::size_t other, std::size_t tile, const Look& look);
   /// Makes the neighbours of a tile smaller until its pixels find their witnesses there as well.
   bool settle(int column, int row);
 
@@ -328,10 +328,9 @@ TilePlan::Look TilePlan::look_at(const RayTile& tile) const {
   return look;
 }
 
-bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) {
+bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index, const Look& look) {
   if (shape == single) return true;
   if (shape == left_out_ || tables_.steepness[index] == every_pixel) return false;
-  const Look look = look_at(tables_.tiles[index]);
   if (!look.known) return false;
   const auto steepness = static_cast<double>(std::max(tables_.steepness[index], gentle));
   const double grip =
@@ -350,18 +349,21 @@ bool TilePlan::settle(int column, int row) {
     return static_cast<std::size_t>(j * across_.count() + i);
   };
   const std::size_t own = index_of(column, row);
+  if (tables_.shapes[own] == single) return false;  // needs nothing of its neighbours
+  const Look look = look_at(tables_.tiles[own]);
   bool changed = false;
   for (int j = row - 1; j <= row + 1; ++j) {
     for (int i = column - 1; i <= column + 1; ++i) {
       std::uint8_t& beside = tables_.shapes[index_of(i, j)];
-      while (!fits(tables_.shapes[own], beside, own)) {
+      while (!fits(tables_.shapes[own], beside, own, look)) {
         if (beside >= tables_.shapes[own] && beside < single) {
           tables_.shapes[own] = single;  // not even beside its like: not known to happen
         } else if (beside == single) {
           tables_.shapes[own] = single;
         } else {
           ++beside;
-          while (beside < single && !fits(beside, beside, index_of(i, j))) ++beside;
+          const Look there = look_at(tables_.tiles[index_of(i, j)]);
+          while (beside < single && !fits(beside, beside, index_of(i, j), there)) ++beside;
         }
         changed = true;
       }
@@ -379,7 +381,8 @@ void TilePlan::choose_shapes() {
     for (int i = 1; i + 1 < columns; ++i) {
       const auto k = static_cast<std::size_t>(j * columns + i);
       std::size_t shape = largest_;
-      while (!fits(shape, shape, k)) ++shape;
+      const Look look = look_at(tables_.tiles[k]);
+      while (!fits(shape, shape, k, look)) ++shape;
       tables_.shapes[k] = static_cast<std::uint8_t>(shape);
     }
   }
