@@ -103,8 +103,8 @@ class Screen {
   /// Errors: egl_unavailable, gl_out_of_memory.
   [[nodiscard]] Status renew();
 
-  [[nodiscard]] int width_px() const { return width_px_; }
-  [[nodiscard]] int height_px() const { return height_px_; }
+  [[nodiscard]] int width_px() const;
+  [[nodiscard]] int height_px() const;
   [[nodiscard]] const ScreenHealth& health() const { return health_; }
   /// "renderer, version" of the driver.
   [[nodiscard]] const char* gl_description() const;
@@ -117,16 +117,15 @@ class Screen {
 
  private:
   Screen();
+  void close();
   Status keep(Status status);
-  Status make_context(ScreenDetail& detail);
+  Status attach(ScreenDetail& detail);
 
-  int width_px_ = 0;
-  int height_px_ = 0;
-  ScreenHealth health_;
-  // In this order: the copy's GL objects go before the context, that before what it draws to.
   std::unique_ptr<ScreenOutput> output_;
   std::unique_ptr<EglContext> context_;
   std::unique_ptr<PictureCopy> copy_;
+  ScreenHealth health_;
+  std::int64_t gpu_timeout_ns_ = 0;
 };
 
 }  // namespace ridgeline
