@@ -29,7 +29,7 @@ struct ScreenSettings {
   const char* x_display = "";       ///< window: such as ":0"; empty: what DISPLAY says
   const char* title = "Ridgeline";  ///< window
   std::int64_t gpu_timeout_ns = 500'000'000;   ///< until a picture must be finished
-  std::int64_t flip_timeout_ns = 100'000'000;  ///< kms: until a page flip must have happened
+  std::int64_t flip_timeout_ns = 100'000'000;  ///< until the picture before must be shown
 };
 
 /// In words what make() or present() was refused: the name of the card, the modes there are, what
