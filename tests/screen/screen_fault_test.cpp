@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -69,6 +71,17 @@ TEST(ScreenFault, a_card_that_is_none_is_no_screen) {
   refused = refusal(settings);
   EXPECT_EQ(refused.fault, Fault::screen_missing);
   EXPECT_TRUE(says(refused, "/dev/null: not a card")) << refused.detail;
+}
+
+TEST(ScreenFaultDeathTest, without_a_driver_there_is_no_context) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a process that has not loaded one yet
+  EXPECT_EXIT(
+      {
+        ::setenv("LIBGL_DRIVERS_PATH", "/nonexistent", 1);
+        std::fprintf(stderr, "%s\n", std::string(fault_id(refusal(sized(320, 200)).fault)).c_str());
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "egl_unavailable");
 }
 
 TEST(ScreenFault, the_context_asks_to_be_told_of_resets) {
