@@ -150,14 +150,14 @@ inline constexpr std::int64_t attitude_freeze_ns = 1 * second_ns;
 inline constexpr std::int64_t position_freeze_ns = 1'500 * ms_ns;
 /// And meanwhile the others have moved by so much: a turn that the roll does not explain, a flight
 /// path angle that changed, a track that turned; two posts of 1"; half a storey of 30 m.
-inline constexpr double roll_freeze_deg = 10.0;
-inline constexpr double pitch_freeze_deg = 5.0;
-inline constexpr double heading_freeze_deg = 10.0;
+inline constexpr double roll_freeze_deg = 8.0;
+inline constexpr double pitch_freeze_deg = 4.0;
+inline constexpr double heading_freeze_deg = 6.0;
 inline constexpr double fix_freeze_m = 25.0;
 inline constexpr double height_freeze_m = 15.0;
-/// What the others moved is forgotten over this time: wind makes 20 % of a turn unexplained, which
-/// is 10 degrees in 8 s only above 6 deg/s.
-inline constexpr std::int64_t freeze_window_ns = 8 * second_ns;
+/// What the others moved is forgotten over this time: wind leaves 20 % of a turn unexplained, which
+/// in a standard-rate turn of a source without any noise is 7 degrees in 12 s.
+inline constexpr std::int64_t freeze_window_ns = 12 * second_ns;
 /// Below this speed (30 kt) tracks and flight path angles are noise.
 inline constexpr double least_speed_mps = 15.0;
 /// Above this pitch (or bank) a turn is not explained by the bank.
