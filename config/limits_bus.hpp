@@ -144,14 +144,17 @@ inline constexpr std::int64_t watch_present_ns = position_timeout_ns;
 inline constexpr std::int64_t contradiction_memory_ns = 10 * second_ns;
 static_assert(agree_again_ns < contradiction_memory_ns);
 
-/// The same bits for at least so long. Attitudes are measured anew 10 times a second or more, and
-/// never twice alike; receivers of 1 Hz are repeated for 0.9 s.
-inline constexpr std::int64_t attitude_freeze_ns = 1 * second_ns;
+/// The same bits for at least so long. Attitudes are measured anew 10 times a second or more and
+/// are never twice alike; but recorders round to whole degrees, and senders hold a value at the end
+/// of its range: in three recorded flights (14 h) never for so long while the others moved.
+/// Receivers of 1 Hz are repeated for 0.9 s.
+inline constexpr std::int64_t attitude_freeze_ns = 2 * second_ns;
+inline constexpr std::int64_t pitch_freeze_ns = 6 * second_ns;
 inline constexpr std::int64_t position_freeze_ns = 1'500 * ms_ns;
 /// And meanwhile the others have moved by so much: a turn that the roll does not explain, a flight
 /// path angle that changed, a track that turned; two posts of 1"; half a storey of 30 m.
-inline constexpr double roll_freeze_deg = 8.0;
-inline constexpr double pitch_freeze_deg = 4.0;
+inline constexpr double roll_freeze_deg = 10.0;
+inline constexpr double pitch_freeze_deg = 7.0;
 inline constexpr double heading_freeze_deg = 6.0;
 inline constexpr double fix_freeze_m = 25.0;
 inline constexpr double height_freeze_m = 15.0;
@@ -160,8 +163,11 @@ inline constexpr double height_freeze_m = 15.0;
 inline constexpr std::int64_t freeze_window_ns = 12 * second_ns;
 /// Below this speed (30 kt) tracks and flight path angles are noise.
 inline constexpr double least_speed_mps = 15.0;
-/// Above this pitch (or bank) a turn is not explained by the bank.
-inline constexpr double steep_deg = 60.0;
+/// Above this pitch or bank a turn is not explained by the bank: 10 % of speed and 2 degrees of
+/// bank are too much of it.
+inline constexpr double steep_deg = 45.0;
+/// Steeper flight paths than this come from noise at low speed.
+inline constexpr double steep_path_deg = 20.0;
 
 /// Steps of one in a row after which a sender counts its messages: one in 2^24 by chance.
 inline constexpr std::uint8_t sequence_learn_count = 3;

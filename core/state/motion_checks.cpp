@@ -180,9 +180,12 @@ void watch_pitch(OwnshipState& state) {
   const Sample& pitch = state[P::pitch];
   FreezeWatch& watch = freeze_of(state, Compared::pitch);
   const double climb_mps = value_at(state, P::altitude_rate, pitch.time_ns);
-  const double path_deg = std::atan2(climb_mps, speed_at(state, pitch.time_ns)) / rad_per_deg;
+  const double steep_or_not_deg =
+      std::atan2(climb_mps, speed_at(state, pitch.time_ns)) / rad_per_deg;
+  const bool steep = std::abs(steep_or_not_deg) > limits::steep_path_deg;
+  const double path_deg = steep ? nothing : steep_or_not_deg;
   note_sample(state, Compared::pitch, pitch.value, 0.0, pitch.time_ns, path_deg - watch.other,
-              {limits::pitch_freeze_deg, limits::attitude_freeze_ns});
+              {limits::pitch_freeze_deg, limits::pitch_freeze_ns});
   watch.other = path_deg;
 }
 

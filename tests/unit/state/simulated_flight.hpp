@@ -106,7 +106,7 @@ class SimulatedFlight {
     const double rad = std::numbers::pi / 180.0;
     t.roll_deg =
         18.0 * std::sin(t.time_s * 0.45 + phases_[0]) + 8.0 * std::sin(t.time_s * 0.9 + phases_[1]);
-    t.climb_mps = 5.0 * std::sin(t.time_s * 0.3 + phases_[2]);
+    t.climb_mps = 9.0 * std::sin(t.time_s * 0.3 + phases_[2]);
     t.speed_mps = 55.0 + 5.0 * std::sin(t.time_s * 0.1 + phases_[3]);
     if (tick_ > 0) {
       t.track_deg += 9.80665 * std::tan(t.roll_deg * rad) / t.speed_mps / rad * dt_s_;
