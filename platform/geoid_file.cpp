@@ -227,7 +227,10 @@ FileResult<GeoidFile> load_geoid(const std::string& path) {
   if (path == "none") return GeoidFile();
   const Result<MappedFile> mapping = MappedFile::open(path.c_str());
   if (!mapping.ok()) return file_problem(path, Fault::geoid_unreadable, std::strerror(errno));
-  const std::span<const std::byte> bytes = mapping.value().bytes();
+  return geoid_in(path, mapping.value().bytes());
+}
+
+FileResult<GeoidFile> geoid_in(const std::string& path, std::span<const std::byte> bytes) {
   if (has_gtx_extension(path)) return parsed_gtx(path, bytes);
   const bool pgm = bytes.size() >= 2 && bytes[0] == std::byte{'P'} && bytes[1] == std::byte{'5'};
   if (pgm) return parsed_pgm(path, bytes);

@@ -1,6 +1,7 @@
 #include "sim/geotiff/geotiff_reader.hpp"
 
 #include <cpl_error.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
@@ -8,9 +9,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -68,10 +71,15 @@ FileProblem unsupported(const std::string& path, const std::string& detail) {
 }
 
 FileResult<Dataset> opened(const std::string& path, const QuietGdal& gdal) {
-  std::error_code error;
-  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
-  if (error) return file_problem(path, Fault::tile_unreadable, error.message());
-  if (size_bytes == 0) return file_problem(path, Fault::tile_truncated, "0 bytes");
+  // GDAL's own question, so that its files in memory are files as well.
+  VSIStatBufL status = {};
+  if (VSIStatL(path.c_str(), &status) != 0) {
+    return file_problem(path, Fault::tile_unreadable, std::strerror(errno));
+  }
+  if (VSI_ISDIR(status.st_mode)) {
+    return file_problem(path, Fault::tile_unreadable, std::strerror(EISDIR));
+  }
+  if (status.st_size == 0) return file_problem(path, Fault::tile_truncated, "0 bytes");
   const char* const drivers[] = {"GTiff", nullptr};
   const unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
   Dataset dataset(GDALOpenEx(path.c_str(), flags, drivers, nullptr, nullptr));

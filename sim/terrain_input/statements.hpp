@@ -42,6 +42,9 @@ inline constexpr std::size_t most_statement_bytes = std::size_t{8} << 20U;
 /// system's reason; at most most_statement_bytes, else Fault::capacity_exceeded.
 FileResult<StatementFile> statements_of(const std::string& path);
 
+/// The statements in the text of a file named `path`; as statements_of().
+FileResult<StatementFile> statements_in(const std::string& path, std::string_view text);
+
 /// A word of the file as it may stand in a message: printable, at most 24 characters, in quotes.
 [[nodiscard]] std::string shown(std::string_view word);
 

@@ -73,10 +73,14 @@ Geoid Geoid::from_nodes(double south_deg, double west_deg, double lat_step_deg, 
 }
 
 Geoid Geoid::read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path.string(), "cannot be opened");
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return in(path, bytes);
+}
+
+Geoid Geoid::in(const std::filesystem::path& path, const std::string& bytes) {
   const std::string file = path.string();
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(file, "cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   Geoid geoid;
   if (bytes.starts_with("P5")) {
     const PgmHeader header = pgm_header(file, bytes);

@@ -21,6 +21,10 @@ struct Statement {
 void for_each_statement(const std::filesystem::path& file,
                         const std::function<void(const Statement&)>& take);
 
+/// The same for the text of a file, of any length.
+void for_each_statement_in(std::string_view text,
+                           const std::function<void(const Statement&)>& take);
+
 /// Throws the InputError `FILE: line N: FAULT`.
 [[noreturn]] void wrong_statement(const std::filesystem::path& file, int line,
                                   const std::string& fault);

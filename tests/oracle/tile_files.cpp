@@ -174,7 +174,10 @@ Tile read_hgt(const std::filesystem::path& file) {
 }
 
 Tile read_dted(const std::filesystem::path& file) {
-  const Bytes bytes = file_bytes(file);
+  return dted_in(file, file_bytes(file));
+}
+
+Tile dted_in(const std::filesystem::path& file, const Bytes& bytes) {
   Tile tile = dted_without_posts(file, bytes);
   const std::size_t record = dted_record_bytes(tile);
   tile.posts.resize(tile.index(tile.rows, 0));

@@ -1,0 +1,34 @@
+// Feeds every input of a corpus to the fuzz target it is linked with, so that every build replays
+// it, whatever its compiler. Usage: ridgeline-replay-TARGET CORPUS_FILE
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+
+#include "tests/fuzz/corpus_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int main(int argument_count, char** arguments) {
+  if (argument_count != 2) {
+    std::fprintf(stderr, "usage: %s CORPUS_FILE\n", arguments[0]);
+    return 2;
+  }
+  try {
+    const auto inputs = ridgeline::fuzz::corpus_inputs(arguments[1]);
+    for (std::size_t index = 0; index < inputs.size(); ++index) {
+      const std::string& input = inputs[index];
+      // Its own memory of exactly this size: a sanitizer then sees one byte too many.
+      const auto bytes = std::make_unique<std::uint8_t[]>(input.size());
+      std::memcpy(bytes.get(), input.data(), input.size());
+      std::fprintf(stderr, "input %zu\r", index + 1);
+      LLVMFuzzerTestOneInput(bytes.get(), input.size());
+    }
+    std::printf("%zu inputs replayed\n", inputs.size());
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "%s\n", fault.what());
+    return 3;
+  }
+  return 0;
+}
