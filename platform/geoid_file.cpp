@@ -21,6 +21,7 @@ namespace {
 
 constexpr double largest_undulation_m = 200.0;
 constexpr int largest_side = 50000;
+constexpr double smallest_step_deg = 1e-4;  // 0.36": a tenth of the finest grids there are
 constexpr float gtx_no_data = -88.8888F;
 constexpr float unknown_m = std::numeric_limits<float>::quiet_NaN();
 
@@ -69,7 +70,7 @@ std::string_view without_blanks(std::string_view text) {
 // `# Key value`; keys that say nothing about the numbers are passed over.
 void read_comment(std::string_view line, PgmHeader& header) {
   const std::string_view text = without_blanks(line.substr(1));
-  const std::size_t blank = text.find_first_of(" \t");
+  const std::size_t blank = text.find_first_of(" \t\r\v\f");
   if (blank == std::string_view::npos) return;
   const std::string_view key = text.substr(0, blank);
   const std::string_view value = without_blanks(text.substr(blank));
@@ -162,8 +163,8 @@ FileResult<GeoidFile> parsed_pgm(const std::string& path, std::span<const std::b
 
 bool sane_georeference(const GeoidGrid& grid) {
   return grid.south_deg >= -90.0 && grid.west_deg >= -360.0 && grid.west_deg <= 360.0 &&
-         grid.latitude_step_deg > 0 && grid.longitude_step_deg > 0 &&
-         sane_sides(grid.rows, grid.columns) &&
+         grid.latitude_step_deg >= smallest_step_deg &&
+         grid.longitude_step_deg >= smallest_step_deg && sane_sides(grid.rows, grid.columns) &&
          grid.south_deg + (grid.rows - 1) * grid.latitude_step_deg <= 90.0 + 1e-6 &&
          (grid.columns - 1) * grid.longitude_step_deg <= 360.0 + 1e-6;
 }

@@ -25,9 +25,9 @@ std::string_view without_comment(std::string_view line) {
 std::vector<std::string_view> Statement::words() const {
   std::vector<std::string_view> list;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t first = text.find_first_not_of(" \t", at);
+    const std::size_t first = text.find_first_not_of(blanks, at);
     if (first == std::string_view::npos) break;
-    at = std::min(text.find_first_of(" \t", first), text.size());
+    at = std::min(text.find_first_of(blanks, first), text.size());
     list.push_back(text.substr(first, at - first));
   }
   return list;

@@ -13,12 +13,12 @@ struct Statement {
   int line = 0;  ///< from 1
   std::string_view text;
 
-  /// The words of the text, split at spaces and tabs.
+  /// The words of the text, split at spaces, tabs and carriage returns.
   [[nodiscard]] std::vector<std::string_view> words() const;
 };
 
 /// A text file of statements, one a line: `#` starts a comment, lines without anything else are
-/// passed over, a carriage return at the end of a line does not count, nor a byte order mark.
+/// passed over, a carriage return is a blank, and a byte order mark does not count.
 /// Owner: the statements view `text`; move-only.
 struct StatementFile {
   std::string path;

@@ -117,6 +117,7 @@ void check_log(std::string_view text, LogFormat format) {
       check_written(frame, log.notes.interfaces[frame.interface]);
     }
   }
+  if (text.size() % 4 != 0) return;  // twice the work: not each time
   const ReadLog again = read(text, format, 1 + text.size() % 13);
   must(again.statistics == log.statistics, "pieces make no difference to the counts");
   must(std::equal(again.frames.begin(), again.frames.end(), log.frames.begin(), log.frames.end(),

@@ -20,6 +20,7 @@ using Json = nlohmann::json;
 
 /// Beyond this a bound says nothing, and looking for the pixels within it takes for ever.
 constexpr double largest_bound_px = 1024;
+constexpr png_uint_32 largest_picture_side = 8192;
 
 std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -161,6 +162,11 @@ void take_color(const std::string& file, const std::string& bytes, Frame& frame)
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
     throw InputError(file, image.message);
+  }
+  // A header may claim any size; memory is for pictures that a screen can have.
+  if (image.width > largest_picture_side || image.height > largest_picture_side) {
+    png_image_free(&image);
+    throw InputError(file, "is larger than any picture of a frame");
   }
   image.format = PNG_FORMAT_RGB;
   std::vector<unsigned char> pixels(PNG_IMAGE_SIZE(image));

@@ -14,7 +14,7 @@ struct Statement {
 };
 
 /// Reads a text file of one statement a line: `#` starts a comment, lines without a word are left
-/// out, words end at spaces, tabs and carriage returns.
+/// out, words end at spaces, tabs and carriage returns; a byte order mark is no word.
 /// Domain: at most 16 MiB.
 /// Owner:  the words are valid inside `take` only.
 /// Errors: InputError naming the file.

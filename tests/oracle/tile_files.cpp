@@ -43,6 +43,7 @@ std::string lower(std::string text) {
 /// A run of digits as a number, or -1.
 int number(std::string_view digits) {
   int value = -1;
+  if (digits.starts_with('-')) return -1;  // a minus zero is no run of digits either
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (fault != std::errc() || end != digits.data() + digits.size() || value < 0) return -1;
   return value;
