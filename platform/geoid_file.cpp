@@ -101,7 +101,8 @@ std::optional<PgmHeader> pgm_header(std::string_view text) {
   const std::optional<int> columns = number<int>(sides.substr(0, blank));
   const std::optional<int> rows = number<int>(without_blanks(sides.substr(blank)));
   if (!columns.has_value() || !rows.has_value()) return std::nullopt;
-  if (without_blanks(next_line(text, at)) != "65535") return std::nullopt;
+  // Exactly: one blank ends this number, what follows it are samples.
+  if (next_line(text, at) != "65535") return std::nullopt;
   header.columns = *columns;
   header.rows = *rows;
   header.size_bytes = at;
