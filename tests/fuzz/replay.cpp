@@ -13,12 +13,22 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
+namespace {
+
+volatile std::sig_atomic_t current = 0;  ///< which input is replayed, from 1
+
+}  // namespace
+
 int main(int argument_count, char** arguments) {
   if (argument_count != 2) {
     std::fprintf(stderr, "usage: %s CORPUS_FILE\n", arguments[0]);
     return 2;
   }
-  std::signal(SIGABRT, [](int) { std::_Exit(1); });  // a failed test, not a crash of it
+  // A failed test, not a crash of it.
+  std::signal(SIGABRT, [](int) {
+    std::fprintf(stderr, "input %d of the corpus\n", static_cast<int>(current));
+    std::_Exit(1);
+  });
   try {
     const auto inputs = ridgeline::fuzz::corpus_inputs(arguments[1]);
     for (std::size_t index = 0; index < inputs.size(); ++index) {
@@ -26,7 +36,7 @@ int main(int argument_count, char** arguments) {
       // Its own memory of exactly this size: a sanitizer then sees one byte too many.
       const auto bytes = std::make_unique<std::uint8_t[]>(input.size());
       std::memcpy(bytes.get(), input.data(), input.size());
-      std::fprintf(stderr, "input %zu\r", index + 1);
+      current = static_cast<std::sig_atomic_t>(index + 1);
       LLVMFuzzerTestOneInput(bytes.get(), input.size());
     }
     std::printf("%zu inputs replayed\n", inputs.size());
