@@ -29,6 +29,7 @@ namespace {
 constexpr float unknown_m = std::numeric_limits<float>::quiet_NaN();
 constexpr double snap_deg = 1e-6;
 constexpr double pole_slack_deg = 1e-9;
+constexpr double smallest_step_deg = 1e-6;  // 0.11 m; below it every post would be snapped
 constexpr std::int64_t largest_post_count = std::int64_t{1} << 28;
 constexpr double wgs84_semi_major_m = 6378137.0;
 
@@ -135,6 +136,9 @@ std::optional<FileProblem> place_posts(const std::string& path, Raster& raster) 
   const int rows = GDALGetRasterYSize(raster.dataset.get());
   if (corner[2] != 0 || corner[4] != 0) return unsupported(path, "rotated raster");
   if (!(corner[1] > 0) || !(std::abs(corner[5]) > 0)) return unsupported(path, "mirrored raster");
+  if (corner[1] < smallest_step_deg || std::abs(corner[5]) < smallest_step_deg) {
+    return unsupported(path, "posts less than 1e-6 degree apart");
+  }
   if (columns < 2 || rows < 2 || std::int64_t{columns} * rows > largest_post_count) {
     return unsupported(path, std::to_string(columns) + " x " + std::to_string(rows) + " posts");
   }

@@ -29,6 +29,7 @@ void check_tile(const DecodedTile& tile) {
   must(grid.west_deg >= -180 && grid.west_deg < 180 && grid.south_deg >= -90 - 1e-6 &&
            grid.north_deg() <= 90 + 1e-6,
        "a tile is on the Earth");
+  must(grid.latitude_step_deg > 5e-7 && grid.longitude_step_deg > 5e-7, "posts are apart");
   for (const float post_m : tile.posts_m) {
     must(std::isnan(post_m) || (post_m >= lowest_post_m && post_m <= highest_post_m),
          "a post is a height of the Earth or unknown");

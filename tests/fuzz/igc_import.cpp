@@ -1,5 +1,5 @@
 // The flight that is derived from a track, written as a log and read again. An input is what is
-// asked for (2 bytes) and fixes of eleven bytes: time step, moves north, east and up, angles.
+// asked for, and fixes of seven to ten bytes: time step, moves north, east and up, angles.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -78,8 +78,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.altitude = static_cast<IgcAltitude>(asked % 3U);
   options.attitude_hz = 20.0;
   options.position_hz = 5.0;
-  options.from_s = (asked & 8U) != 0 ? 3.0 : 0.0;
-  options.to_s = options.from_s + 0.1;  // writing a frame takes longer than deriving it
+  options.from_s = (asked & 8U) != 0 ? input.u8() / 8.0 : 0.0;
+  options.to_s = options.from_s + 0.04;  // writing a frame takes longer than deriving it
   if ((asked & 16U) != 0) {
     options.geoid = [](double, double longitude_deg) -> std::optional<double> {
       if (longitude_deg > 8.5) return std::nullopt;
@@ -98,6 +98,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   must(
       report.value().duration_s > 0.0 && report.value().gap_s >= 0.0 && report.value().segments > 0,
       "what is written lasts some time");
-  check_log(out.str(), report.value());
+  if (size % 4 == 0) check_log(out.str(), report.value());  // reading costs as much: not each time
   return 0;
 }

@@ -120,6 +120,21 @@ void check_pose_value(const PoseValue& value, double low, double high, std::int6
   must(value.age_ns <= timeout_ns, "a valid value is not stale");
 }
 
+/// A position is carried on by the speed and track of its own source alone, while they are valid.
+void check_carried(const OwnshipState& state, std::int64_t now_ns, const OwnshipPose& pose,
+                   const StateLimits& rules) {
+  if (pose.extrapolated_ns == 0) return;
+  const bool is_gps = pose.position_source == PositionSource::gps;
+  const BusParameter speed =
+      is_gps ? BusParameter::gps_ground_speed : BusParameter::ins_ground_speed;
+  const BusParameter track = is_gps ? BusParameter::gps_true_track : BusParameter::ins_true_track;
+  must(pose.latitude_deg.validity == Validity::valid, "only a valid position is carried on");
+  for (const BusParameter parameter : {speed, track}) {
+    must(validity_at(state, parameter, now_ns, rules.velocity_timeout_ns) == Validity::valid,
+         "a position is carried on by valid values");
+  }
+}
+
 void check_pose(const OwnshipState& state, std::int64_t now_ns, const BusProfile& profile) {
   const StateLimits rules = state_limits(profile);
   const OwnshipPose pose = ownship_pose(state, now_ns, rules);
@@ -132,6 +147,7 @@ void check_pose(const OwnshipState& state, std::int64_t now_ns, const BusProfile
   must(pose.heading_deg.value < 360.0, "a heading is below 360 degrees");
   must(pose.extrapolated_ns >= 0 && pose.extrapolated_ns <= rules.extrapolation_limit_ns,
        "a position is carried on for so long only");
+  check_carried(state, now_ns, pose, rules);
   must((pose.position_source == PositionSource::none) ==
            (pose.latitude_deg.validity == Validity::missing),
        "a position has a source");
