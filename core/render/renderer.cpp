@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/render/text_bands.hpp"
 #include "shaders/count_comp.hpp"
 #include "shaders/present_frag.hpp"
 #include "shaders/ray_cast_frag.hpp"
@@ -11,6 +12,7 @@
 #include "shaders/sweep_comp.hpp"
 #include "shaders/tile_pixels_vert.hpp"
 #include "shaders/tile_rays_vert.hpp"
+#include "shaders/words_frag.hpp"
 
 namespace ridgeline {
 namespace {
@@ -108,7 +110,8 @@ Status Renderer::make_programs(ShaderLog log) {
   for (const Drawn& entry :
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
         Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
-        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag}}) {
+        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag},
+        Drawn{&words_, "words", shader::tile_pixels_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
     if (!made) return made;
@@ -146,6 +149,8 @@ Status Renderer::make_tiles() {
                     static_cast<std::size_t>(most_tiles(sizes_.height_px));
   constexpr GLenum vbo = GL_ARRAY_BUFFER;
   Status s = take(make_buffer(vbo, most * sizeof(RayTile), GL_DYNAMIC_DRAW), tiles_);
+  if (s)
+    s = take(make_buffer(vbo, most_text_bands * sizeof(RayTile), GL_DYNAMIC_DRAW), word_tiles_);
   if (s) s = take(make_buffer(vbo, most * sizeof(RayTile), GL_STATIC_DRAW), single_tiles_);
   if (!s) return s;
   // Made at boot in what becomes the frames' own memory.
@@ -155,7 +160,8 @@ Status Renderer::make_tiles() {
   single_count_ = put_tiles({sizes_.width_px, 0}, {sizes_.height_px, 0}, std::span(records, most));
   glUnmapBuffer(vbo);
   for (const auto& [buffer, vertices] :
-       {std::pair(&tiles_, &tile_vertices_), std::pair(&single_tiles_, &single_vertices_)}) {
+       {std::pair(&tiles_, &tile_vertices_), std::pair(&single_tiles_, &single_vertices_),
+        std::pair(&word_tiles_, &word_vertices_)}) {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     *vertices = VertexArray(name);
@@ -294,6 +300,22 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.width_px, sizes_.height_px, GL_RED,
                   GL_UNSIGNED_BYTE, layer.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
+  word_count_ = static_cast<int>(bands.size());
+  if (!bands.empty()) {
+    write_buffer(GL_ARRAY_BUFFER, word_tiles_, bands.view().data(), bands.view().size_bytes());
+  }
+}
+
+void Renderer::draw_words() const {
+  if (word_count_ == 0) return;
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glUseProgram(words_.name());
+  glBindVertexArray(word_vertices_.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, word_count_);
+  glBindVertexArray(0);
+  glDisable(GL_BLEND);
 }
 
 void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style) {
@@ -308,6 +330,7 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   draw_tiles(shaded_target_, shade_, rays_width(), rays_height());
   bind_texture(shader::shaded_unit, shaded_);
   draw_tiles(colour_target_, present_, sizes_.width_px, sizes_.height_px);
+  draw_words();
   timer_.stamp(pass_count);
   glFlush();
 }

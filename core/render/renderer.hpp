@@ -89,6 +89,8 @@ class Renderer {
   void begin_rays(const FrameBlocks& blocks);
   /// Draws all tiles with a program into a target.
   void draw_tiles(const Framebuffer& target, const Program& program, int width, int height) const;
+  /// Draws the text layer over the colour target.
+  void draw_words() const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
   [[nodiscard]] const Buffer& tile_buffer() const {
@@ -101,14 +103,14 @@ class Renderer {
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program sweep_, ray_cast_, count_, shade_, present_;
+  Program sweep_, ray_cast_, count_, shade_, present_, words_;
   Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
-  Buffer tiles_, single_tiles_;
+  Buffer tiles_, single_tiles_, word_tiles_;
   std::span<const RayTile> tiles_shown_;  ///< the caller's; empty: single rays
-  int single_count_ = 0;
+  int single_count_ = 0, word_count_ = 0;
   Framebuffer range_target_, shaded_target_, colour_target_;
-  VertexArray tile_vertices_, single_vertices_;
+  VertexArray tile_vertices_, single_vertices_, word_vertices_;
   GpuTimer timer_;
 };
 
