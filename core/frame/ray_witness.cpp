@@ -7,7 +7,7 @@
 namespace ridgeline {
 
 double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
-                          double reach_px, double loss_px) {
+                          double reach_px, double loss_px, bool one_lattice) {
   constexpr double any = 1e3;
   const glm::dvec2 half(0.5 * (shape.width - 1), 0.5 * (shape.height - 1));
   const double other_width = 0.5 * (other.width - 1), other_height = 0.5 * (other.height - 1);
@@ -26,8 +26,9 @@ double steepest_for_block(const BlockShape& shape, const BlockShape& other, cons
     const glm::dvec2 ray = block * glm::dvec2(shape.width, shape.height) + half - pixel;
     const double same = value(sign * glm::dot(ray, way), off_axis(ray));
     if (block == glm::dvec2(0.0)) return 0.0;
-    return std::min(same,
-                    value(sign * glm::dot(step, way) - other_up, off_axis(step) + other_beside));
+    return one_lattice ? same
+                       : std::min(same, value(sign * glm::dot(step, way) - other_up,
+                                              off_axis(step) + other_beside));
   };
   double steepest = any;
   for (int j = 0; j < shape.height; ++j) {

@@ -10,6 +10,6 @@ namespace ridgeline {
 /// `other`: of blocks in the tiles beside. `way`: unit vector in the picture. `reach_px`: of
 /// completeness. `loss_px`: what rounding moves.
 double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
-                          double reach_px, double loss_px);
+                          double reach_px, double loss_px, bool one_lattice);
 
 }  // namespace ridgeline

@@ -34,6 +34,11 @@ float top_of(float post) {
   return is_void(post) ? post + void_offset_m : post;
 }
 
+/// A slope that is none too small, from its square.
+float rounded_up(float slope2) {
+  return 1.0001F * std::sqrt(slope2);
+}
+
 /// The fine posts of a block with its margin, and what is made of them cell by cell.
 class Builder {
  public:
@@ -52,8 +57,8 @@ class Builder {
   void settle();
   void measure(BlockFacts& facts) const;
   void fill(TerrainBlock& block) const;
-  /// Puts the slopes of finest posts `east_m` and `north_m` apart.
-  void put_steepness(double east_m, double north_m, BlockFacts& facts) const;
+  /// Puts slopes and heights of finest posts `east_m` and `north_m` apart.
+  void put_ground(double east_m, double north_m, BlockFacts& facts) const;
 
  private:
   using Corners = std::array<float, corners * corners>;
@@ -80,6 +85,8 @@ class Builder {
   [[nodiscard]] float highest_of_cell(int cx, int cy) const;
   /// Square of the largest slope of the fine cells from (x0, y0) on.
   [[nodiscard]] float steepest2(int x0, int y0, int side, float per_east, float per_north) const;
+  [[nodiscard]] GroundPart ground_part(int x0, int y0, int side, float per_east,
+                                       float per_north) const;
   /// Lowest known true height of the block's own cells, their borders included.
   [[nodiscard]] float lowest() const;
 
@@ -296,14 +303,33 @@ float Builder::steepest2(int x0, int y0, int side, float per_east, float per_nor
   return steepest;
 }
 
-void Builder::put_steepness(double east_m, double north_m, BlockFacts& facts) const {
-  constexpr int side = block_posts / residual_parts;
+GroundPart Builder::ground_part(int x0, int y0, int side, float per_east, float per_north) const {
+  GroundPart part{rounded_up(steepest2(x0, y0, side, per_east, per_north)), -nothing, nothing};
+  for (int y = y0; y <= y0 + side; ++y) {
+    for (int x = x0; x <= x0 + side; ++x) {
+      const float h = at(x, y);
+      if (with_voids_ && is_void(h)) continue;
+      part.lowest_m = std::min(part.lowest_m, h);
+      part.highest_m = std::max(part.highest_m, h);
+    }
+  }
+  return part;
+}
+
+void Builder::put_ground(double east_m, double north_m, BlockFacts& facts) const {
+  constexpr int side = block_posts / residual_parts, small = block_posts / ground_parts;
   const auto per_east = static_cast<float>(1.0 / east_m);
   const auto per_north = static_cast<float>(1.0 / north_m);
+  for (int part = 0; part < ground_parts * ground_parts; ++part) {
+    const int x = (part % ground_parts * small + margin) * step_;
+    const int y = (part / ground_parts * small + margin) * step_;
+    facts.ground[static_cast<std::size_t>(part)] =
+        ground_part(x, y, small * step_, per_east, per_north);
+  }
   for (int part = 0; part < residual_parts * residual_parts; ++part) {
     const int x = part % residual_parts * side * step_, y = part / residual_parts * side * step_;
     const float steepest = steepest2(x, y, (side + 2 * margin) * step_, per_east, per_north);
-    const float slope = 1.0001F * std::sqrt(steepest);
+    const float slope = rounded_up(steepest);
     facts.part_steepness[static_cast<std::size_t>(part)] = slope;
     facts.steepness = std::max(facts.steepness, slope);
   }
@@ -383,7 +409,7 @@ void build_polar_block(const TerrainSource& source, const BlockScratch& scratch,
   constexpr double smallest_scale = 0.99;  // of a parallel, within 12 degrees of the pole
   const double post_m =
       smallest_scale * source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
-  builder.put_steepness(post_m, post_m, facts);
+  builder.put_ground(post_m, post_m, facts);
   put_ball(source.lattice, id, facts);
 }
 
@@ -443,7 +469,7 @@ void build_block(const TerrainSource& source, const BlockId& id, double far_floo
   const double east_m = source.lattice.longitude_step_deg * rad_per_deg * equator_radius_m *
                         std::cos(std::min(reach, 89.99) * rad_per_deg);
   const double north_m = source.lattice.latitude_step_deg * rad_per_deg * polar_radius_m;
-  builder.put_steepness(east_m, north_m, facts);
+  builder.put_ground(east_m, north_m, facts);
   put_ball(source.lattice, id, facts);
 }
 
