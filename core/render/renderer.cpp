@@ -55,6 +55,26 @@ void put_posts(const float* posts, int x, int y, int level, int width, int heigh
   glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, level, width, height, 1, GL_RED, GL_FLOAT, posts);
 }
 
+Result<Texture> make_record_list(int count) {
+  static_assert(sizeof(RayTile) == 4 * sizeof(GLint));
+  const int rows = (count + shader::tile_list_width - 1) / shader::tile_list_width;
+  return make_texture(GL_RGBA32I, shader::tile_list_width, rows, 1, sizeof(RayTile));
+}
+
+/// Writes records from number `first` on.
+void write_records(const Texture& list, int first, std::span<const RayTile> records) {
+  bind_texture(shader::tiles_unit, list);
+  while (!records.empty()) {
+    const int x = first % shader::tile_list_width, y = first / shader::tile_list_width;
+    const auto count =
+        std::min(records.size(), static_cast<std::size_t>(shader::tile_list_width - x));
+    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, static_cast<GLsizei>(count), 1, GL_RGBA_INTEGER, GL_INT,
+                    records.data());
+    records = records.subspan(count);
+    first += static_cast<int>(count);
+  }
+}
+
 /// Takes the value out of a result or hands its fault to the caller.
 template <typename T>
 Status take(Result<T> result, T& target) {
@@ -145,33 +165,24 @@ Status Renderer::make_tiles() {
   bind_texture(shader::shaded_unit, shaded_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  const auto most = static_cast<std::size_t>(most_tiles(sizes_.width_px)) *
-                    static_cast<std::size_t>(most_tiles(sizes_.height_px));
-  constexpr GLenum vbo = GL_ARRAY_BUFFER;
-  Status s = take(make_buffer(vbo, most * sizeof(RayTile), GL_DYNAMIC_DRAW), tiles_);
-  if (s)
-    s = take(make_buffer(vbo, most_text_bands * sizeof(RayTile), GL_DYNAMIC_DRAW), word_tiles_);
-  if (s) s = take(make_buffer(vbo, most * sizeof(RayTile), GL_STATIC_DRAW), single_tiles_);
+  const int most = most_tiles(sizes_.width_px) * most_tiles(sizes_.height_px);
+  Status s = take(make_record_list(most), tiles_);
+  if (s) s = take(make_record_list(most), single_tiles_);
+  if (s) s = take(make_record_list(static_cast<int>(most_text_bands)), word_tiles_);
   if (!s) return s;
-  // Made at boot in what becomes the frames' own memory.
-  auto* records = static_cast<RayTile*>(
-      glMapBufferRange(vbo, 0, static_cast<GLsizeiptr>(most * sizeof(RayTile)), GL_MAP_WRITE_BIT));
-  if (records == nullptr) return Fault::gl_out_of_memory;
-  single_count_ = put_tiles({sizes_.width_px, 0}, {sizes_.height_px, 0}, std::span(records, most));
-  glUnmapBuffer(vbo);
-  for (const auto& [buffer, vertices] :
-       {std::pair(&tiles_, &tile_vertices_), std::pair(&single_tiles_, &single_vertices_),
-        std::pair(&word_tiles_, &word_vertices_)}) {
-    GLuint name = 0;
-    glGenVertexArrays(1, &name);
-    *vertices = VertexArray(name);
-    glBindVertexArray(name);
-    glBindBuffer(vbo, buffer->name());
-    glEnableVertexAttribArray(shader::tile_attribute);
-    glVertexAttribIPointer(shader::tile_attribute, 4, GL_INT, sizeof(RayTile), nullptr);
-    glVertexAttribDivisor(shader::tile_attribute, 1);
+  const TileAxis across{sizes_.width_px, 0};
+  std::array<RayTile, most_tiles(limits::max_image_px)> row{};
+  for (int y = 0; y < sizes_.height_px; y += ray_tile_px) {
+    const int height = std::min(ray_tile_px, sizes_.height_px - y);
+    const int count = put_tiles(across, {height, 0}, row);
+    for (RayTile& tile : row) {
+      tile.origin = RayTile::pair(tile.x(), y);
+      tile.rays = tile.origin;
+    }
+    write_records(single_tiles_, single_count_,
+                  std::span(row).first(static_cast<std::size_t>(count)));
+    single_count_ += count;
   }
-  glBindVertexArray(0);
   return {};
 }
 
@@ -250,7 +261,7 @@ void Renderer::begin_rays(const FrameBlocks& blocks) {
 
 void Renderer::end_range() {
   bind_texture(shader::range_unit, range_);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::tiles_buffer, tile_buffer().name());
+  bind_texture(shader::tiles_unit, tiles_shown_.empty() ? single_tiles_ : tiles_);
   glUseProgram(count_.name());
   glDispatchCompute(groups(tile_count(), 8), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -260,7 +271,7 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
                             std::span<const float> slopes, std::span<const RayTile> tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
-  write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
+  write_records(tiles_, 0, tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
@@ -288,9 +299,8 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  glBindVertexArray(tiles_shown_.empty() ? single_vertices_.name() : tile_vertices_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tile_count());
-  glBindVertexArray(0);
+  bind_texture(shader::tiles_unit, tiles_shown_.empty() ? single_tiles_ : tiles_);
+  glDrawArrays(GL_TRIANGLES, 0, 6 * tile_count());
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -302,9 +312,7 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
   word_count_ = static_cast<int>(bands.size());
-  if (!bands.empty()) {
-    write_buffer(GL_ARRAY_BUFFER, word_tiles_, bands.view().data(), bands.view().size_bytes());
-  }
+  write_records(word_tiles_, 0, bands.view());
 }
 
 void Renderer::draw_words() const {
@@ -312,9 +320,8 @@ void Renderer::draw_words() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(words_.name());
-  glBindVertexArray(word_vertices_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, word_count_);
-  glBindVertexArray(0);
+  bind_texture(shader::tiles_unit, word_tiles_);
+  glDrawArrays(GL_TRIANGLES, 0, 6 * word_count_);
   glDisable(GL_BLEND);
 }
 

@@ -93,9 +93,6 @@ class Renderer {
   void draw_words() const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
-  [[nodiscard]] const Buffer& tile_buffer() const {
-    return tiles_shown_.empty() ? single_tiles_ : tiles_;
-  }
   [[nodiscard]] int tile_count() const;
   void write_frame_block(const FrameBlocks& blocks);
   void bind_window() const;
@@ -106,11 +103,10 @@ class Renderer {
   Program sweep_, ray_cast_, count_, shade_, present_, words_;
   Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
-  Buffer tiles_, single_tiles_, word_tiles_;
-  std::span<const RayTile> tiles_shown_;  ///< the caller's; empty: single rays
+  Texture tiles_, single_tiles_, word_tiles_;  ///< records, for the vertex shaders
+  std::span<const RayTile> tiles_shown_;       ///< the caller's; empty: single rays
   int single_count_ = 0, word_count_ = 0;
   Framebuffer range_target_, shaded_target_, colour_target_;
-  VertexArray tile_vertices_, single_vertices_, word_vertices_;
   GpuTimer timer_;
 };
 
