@@ -11,12 +11,6 @@ vec3 shaded(ivec2 pixel) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(int(gl_FragCoord.x), int(ray_dy.w) - 1 - int(gl_FragCoord.y));
-  vec3 seen = shaded(pixel);
-  // The line of zero pitch, with a dark rim so that it shows on snow and sky.
-  float up = ray_origin.z + float(pixel.x) * ray_dx.z + float(pixel.y) * ray_dy.z;
-  float from_horizon = (abs(up) + 1.0 - legend.y) * line.y;
-  seen *= 1.0 - 0.35 * clamp(2.4 - from_horizon, 0.0, 1.0);
-  seen = mix(seen, vec3(1.0), 0.90 * clamp(line.z - from_horizon, 0.0, 1.0));
-  colour = vec4(seen, 1.0);
+  ivec2 pixel = picture_pixel();
+  colour = vec4(with_pitch_line(shaded(pixel), pixel), 1.0);
 }

@@ -49,6 +49,11 @@ struct ImageRect {
   }
 };
 
+HeightRange heights_of(const BlockFacts& facts) {
+  const auto highest_m = static_cast<double>(facts.highest_m);
+  return {std::min(static_cast<double>(facts.lowest_m), highest_m), highest_m};
+}
+
 class Marking {
  public:
   Marking(const TerrainKeeper& terrain, const LocalFrame& local, const Camera& camera,
@@ -98,14 +103,14 @@ BlockPlace Marking::place_of(const HeldBlock& block, const glm::dvec3& way) cons
   const double north_m = largest_radius_m * rad_per_deg * view_.lattice.latitude_step_deg * span;
   const double east_m =
       largest_radius_m * rad_per_deg * view_.lattice.longitude_step_deg * span * narrow;
-  const auto highest_m = static_cast<double>(facts.highest_m);
+  const HeightRange heights = heights_of(facts);
   // East, north and up over there are those here but for the bend of the Earth between.
   const double far = glm::length(way) / smallest_radius_m;
   const double reach_deg = std::min(std::abs(latitude_deg) + 2.0, 88.0);
   BlockPlace place;
   place.bend = far * (1.0 + std::tan(reach_deg * rad_per_deg));
   place.slip_m = place.bend * std::hypot(east_m, north_m) + slip_m;
-  place.middle_m = 0.5 * (std::min(static_cast<double>(facts.lowest_m), highest_m) + highest_m);
+  place.middle_m = 0.5 * (heights.low_m + heights.high_m);
   place.middle = camera_from_enu_ * way;
   place.east = camera_from_enu_[0] * east_m;
   place.north = camera_from_enu_[1] * north_m;
@@ -179,8 +184,7 @@ void Marking::mark(const TileRect& rect, float steepness) {
 
 void Marking::mark_uncertain(const HeldBlock& block, const BlockPlace& place, bool unknown) {
   const BlockFacts& facts = block.facts;
-  const auto highest_m = static_cast<double>(facts.highest_m);
-  HeightRange heights{std::min(static_cast<double>(facts.lowest_m), highest_m), highest_m};
+  HeightRange heights = heights_of(facts);
   // Floors of unknown ground have walls down to the ground beside them, which may be another
   // block's.
   if (unknown) heights = with_neighbours(block.id, heights);
@@ -207,12 +211,12 @@ void Marking::mark_slopes(const BlockFacts& facts, const BlockPlace& place, doub
         all.lowest_m = std::min(all.lowest_m, part.lowest_m);
         all.highest_m = std::max(all.highest_m, part.highest_m);
       }
-      if (all.steepness <= gentle_steepness || all.highest_m < all.lowest_m) continue;
+      if (all.highest_m < all.lowest_m) continue;
       const HeightRange heights{static_cast<double>(all.lowest_m),
                                 static_cast<double>(all.highest_m)};
       mark(tiles_of(
                box_of(place, column / joined, row / joined, ground_parts / joined, 0.0, heights)),
-           all.steepness);
+           all.steepness <= gentle_steepness ? 0.0F : all.steepness);
     }
   }
 }
@@ -221,7 +225,6 @@ void Marking::mark_block(const HeldBlock& block) {
   const BlockFacts& facts = block.facts;
   const bool unknown = facts.void_posts > 0 || facts.mixed;
   const bool uncertain = unknown || facts.residual_m > 0;
-  if (!uncertain && facts.steepness <= gentle_steepness) return;
   const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
   const double far_m = glm::length(way.xyz);
   if (far_m - facts.radius_m > limits_.range_m) return;
@@ -233,7 +236,12 @@ void Marking::mark_block(const HeldBlock& block) {
   }
   const BlockPlace place = place_of(block, way.xyz);
   if (uncertain) mark_uncertain(block, place, unknown);
-  if (!unknown) mark_slopes(facts, place, far_m - facts.radius_m);
+  if (unknown) return;
+  if (facts.steepness > gentle_steepness) {
+    mark_slopes(facts, place, far_m - facts.radius_m);
+  } else {
+    mark(tiles_of(box_of(place, 0, 0, 1, 0.0, heights_of(facts))), 0.0F);
+  }
 }
 
 void Marking::mark_all() {
@@ -256,7 +264,7 @@ void mark_steep_ground(const TerrainKeeper& terrain, const LocalFrame& local, co
                        const SteepGroundLimits& limits, const TileSteepness& tiles) {
   const auto count =
       static_cast<std::size_t>(tiles.across.count()) * static_cast<std::size_t>(tiles.down.count());
-  std::fill_n(tiles.steepness.begin(), count, 0.0F);
+  std::fill_n(tiles.steepness.begin(), count, no_ground);
   Marking(terrain, local, camera, limits, tiles).mark_all();
 }
 

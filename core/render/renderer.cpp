@@ -9,6 +9,7 @@
 #include "shaders/present_frag.hpp"
 #include "shaders/ray_cast_frag.hpp"
 #include "shaders/shade_frag.hpp"
+#include "shaders/sky_frag.hpp"
 #include "shaders/sweep_comp.hpp"
 #include "shaders/tile_pixels_vert.hpp"
 #include "shaders/tile_rays_vert.hpp"
@@ -131,6 +132,7 @@ Status Renderer::make_programs(ShaderLog log) {
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
         Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
         Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag},
+        Drawn{&sky_, "sky", shader::tile_pixels_vert, shader::sky_frag},
         Drawn{&words_, "words", shader::tile_pixels_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
@@ -186,13 +188,18 @@ Status Renderer::make_tiles() {
   return {};
 }
 
-int Renderer::tile_count() const {
-  return tiles_shown_.empty() ? single_count_ : static_cast<int>(tiles_shown_.size());
+Renderer::TileRange Renderer::all_tiles() const {
+  const auto shown = static_cast<int>(tiles_shown_.tiles.size());
+  return {0, shown == 0 ? single_count_ : shown};
+}
+
+Renderer::TileRange Renderer::ground_tiles() const {
+  return {0, tiles_shown_.tiles.empty() ? single_count_ : tiles_shown_.ground};
 }
 
 void Renderer::write_frame_block(const FrameBlocks& blocks) {
   shader::FrameBlock frame = blocks.frame;
-  frame.window.w = tile_count();
+  frame.window.w = all_tiles().count;
   frame.ray_target = {1.0F / static_cast<float>(rays_width()),
                       1.0F / static_cast<float>(rays_height()), 0.0F, 0.0F};
   write_buffer(GL_UNIFORM_BUFFER, frame_block_, &frame, sizeof frame);
@@ -261,17 +268,17 @@ void Renderer::begin_rays(const FrameBlocks& blocks) {
 
 void Renderer::end_range() {
   bind_texture(shader::range_unit, range_);
-  bind_texture(shader::tiles_unit, tiles_shown_.empty() ? single_tiles_ : tiles_);
+  bind_texture(shader::tiles_unit, tiles_shown_.tiles.empty() ? single_tiles_ : tiles_);
   glUseProgram(count_.name());
-  glDispatchCompute(groups(tile_count(), 8), 1, 1);
+  glDispatchCompute(groups(all_tiles().count, 8), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                            std::span<const float> slopes, std::span<const RayTile> tiles) {
+                            std::span<const float> slopes, const RayTiles& tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
-  write_records(tiles_, 0, tiles);
+  write_records(tiles_, 0, tiles.tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
@@ -285,22 +292,24 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  draw_tiles(range_target_, ray_cast_, rays_width(), rays_height());
+  draw_tiles(range_target_, ray_cast_, all_tiles());
   end_range();
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int width,
-                          int height) const {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
+                          const TileRange& tiles) const {
+  const bool whole = &target == &colour_target_;
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-  glViewport(0, 0, width, height);
+  glViewport(0, 0, whole ? sizes_.width_px : rays_width(),
+             whole ? sizes_.height_px : rays_height());
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  bind_texture(shader::tiles_unit, tiles_shown_.empty() ? single_tiles_ : tiles_);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * tile_count());
+  bind_texture(shader::tiles_unit, tiles_shown_.tiles.empty() ? single_tiles_ : tiles_);
+  glDrawArrays(GL_TRIANGLES, 6 * tiles.first, 6 * tiles.count);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -334,9 +343,11 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  draw_tiles(shaded_target_, shade_, rays_width(), rays_height());
+  const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
+  draw_tiles(shaded_target_, shade_, ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
-  draw_tiles(colour_target_, present_, sizes_.width_px, sizes_.height_px);
+  draw_tiles(colour_target_, present_, ground_tiles());
+  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
   draw_words();
   timer_.stamp(pass_count);
   glFlush();
@@ -358,7 +369,7 @@ void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scr
   };
   const RayTile all{0, 0, RayTile::pair(sizes_.width_px, sizes_.height_px), RayTile::pair(1, 1)};
   const std::span<const RayTile> whole(&all, 1);
-  for (const RayTile& tile : tiles_shown_.empty() ? whole : tiles_shown_) {
+  for (const RayTile& tile : tiles_shown_.tiles.empty() ? whole : tiles_shown_.tiles) {
     const BlockShape block = tile.shape();
     for (int y = 0; y < tile.height(); ++y) {
       for (int x = 0; x < tile.width(); ++x) {
