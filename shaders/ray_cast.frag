@@ -186,7 +186,10 @@ float first_hit(Ray r, float start, int size) {
       t += hit;
       return shown(t, c.unknown);
     }
-    parent = (window.xy + cell) >> (size + 1);
+    // A larger node will hardly be clear where the ray leaves the cell close to its ground.
+    float left = gap.x + stretch * (gap.y + stretch * gap.z);
+    bool high = left > 3.0 * (abs(c.dx) + abs(c.dy));
+    parent = high ? (window.xy + cell) >> (size + 1) : parent;
     t += straight < exit ? straight : leave;
   }
   return unresolved;
