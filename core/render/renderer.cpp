@@ -56,26 +56,6 @@ void put_posts(const float* posts, int x, int y, int level, int width, int heigh
   glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, x, y, level, width, height, 1, GL_RED, GL_FLOAT, posts);
 }
 
-Result<Texture> make_record_list(int count) {
-  static_assert(sizeof(RayTile) == 4 * sizeof(GLint));
-  const int rows = (count + shader::tile_list_width - 1) / shader::tile_list_width;
-  return make_texture(GL_RGBA32I, shader::tile_list_width, rows, 1, sizeof(RayTile));
-}
-
-/// Writes records from number `first` on.
-void write_records(const Texture& list, int first, std::span<const RayTile> records) {
-  bind_texture(shader::tiles_unit, list);
-  while (!records.empty()) {
-    const int x = first % shader::tile_list_width, y = first / shader::tile_list_width;
-    const auto count =
-        std::min(records.size(), static_cast<std::size_t>(shader::tile_list_width - x));
-    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, static_cast<GLsizei>(count), 1, GL_RGBA_INTEGER, GL_INT,
-                    records.data());
-    records = records.subspan(count);
-    first += static_cast<int>(count);
-  }
-}
-
 /// Takes the value out of a result or hands its fault to the caller.
 template <typename T>
 Status take(Result<T> result, T& target) {
@@ -168,9 +148,9 @@ Status Renderer::make_tiles() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   const int most = most_tiles(sizes_.width_px) * most_tiles(sizes_.height_px);
-  Status s = take(make_record_list(most), tiles_);
-  if (s) s = take(make_record_list(most), single_tiles_);
-  if (s) s = take(make_record_list(static_cast<int>(most_text_bands)), word_tiles_);
+  Status s = take(TileList::make(most), tiles_);
+  if (s) s = take(TileList::make(most), single_tiles_);
+  if (s) s = take(TileList::make(static_cast<int>(most_text_bands)), word_tiles_);
   if (!s) return s;
   const TileAxis across{sizes_.width_px, 0};
   std::array<RayTile, most_tiles(limits::max_image_px)> row{};
@@ -181,8 +161,7 @@ Status Renderer::make_tiles() {
       tile.origin = RayTile::pair(tile.x(), y);
       tile.rays = tile.origin;
     }
-    write_records(single_tiles_, single_count_,
-                  std::span(row).first(static_cast<std::size_t>(count)));
+    single_tiles_.write(single_count_, std::span(row).first(static_cast<std::size_t>(count)));
     single_count_ += count;
   }
   return {};
@@ -268,7 +247,7 @@ void Renderer::begin_rays(const FrameBlocks& blocks) {
 
 void Renderer::end_range() {
   bind_texture(shader::range_unit, range_);
-  bind_texture(shader::tiles_unit, tiles_shown_.tiles.empty() ? single_tiles_ : tiles_);
+  tile_list().bind();
   glUseProgram(count_.name());
   glDispatchCompute(groups(all_tiles().count, 8), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -278,7 +257,7 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
                             std::span<const float> slopes, const RayTiles& tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
-  write_records(tiles_, 0, tiles.tiles);
+  tiles_.write(0, tiles.tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
@@ -308,8 +287,7 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  bind_texture(shader::tiles_unit, tiles_shown_.tiles.empty() ? single_tiles_ : tiles_);
-  glDrawArrays(GL_TRIANGLES, 6 * tiles.first, 6 * tiles.count);
+  tile_list().draw(tiles.first, tiles.count);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -321,7 +299,7 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
   word_count_ = static_cast<int>(bands.size());
-  write_records(word_tiles_, 0, bands.view());
+  word_tiles_.write(0, bands.view());
 }
 
 void Renderer::draw_words() const {
@@ -329,8 +307,7 @@ void Renderer::draw_words() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(words_.name());
-  bind_texture(shader::tiles_unit, word_tiles_);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * word_count_);
+  word_tiles_.draw(0, word_count_);
   glDisable(GL_BLEND);
 }
 

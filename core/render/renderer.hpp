@@ -6,7 +6,7 @@
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
-#include "core/render/ray_tile.hpp"
+#include "core/render/tile_list.hpp"
 #include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
@@ -97,6 +97,9 @@ class Renderer {
   void draw_words() const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
+  [[nodiscard]] const TileList& tile_list() const {
+    return tiles_shown_.tiles.empty() ? single_tiles_ : tiles_;
+  }
   [[nodiscard]] TileRange all_tiles() const;
   [[nodiscard]] TileRange ground_tiles() const;  ///< all but those of plain sky
   void write_frame_block(const FrameBlocks& blocks);
@@ -108,8 +111,8 @@ class Renderer {
   Program sweep_, ray_cast_, count_, shade_, present_, sky_, words_;
   Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
-  Texture tiles_, single_tiles_, word_tiles_;  ///< records, for the vertex shaders
-  RayTiles tiles_shown_;                       ///< the caller's; empty: single rays
+  TileList tiles_, single_tiles_, word_tiles_;
+  RayTiles tiles_shown_;  ///< the caller's; empty: single rays
   int single_count_ = 0, word_count_ = 0;
   Framebuffer range_target_, shaded_target_, colour_target_;
   GpuTimer timer_;
