@@ -100,7 +100,7 @@ float near_hit(Course q, float bend, float ceiling, inout float t) {
     if (t > ray_origin.w || (height > ceiling && climb >= 0.0)) return sky;
     vec2 off = s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
-    vec2 ahead = off + sign(rate) * (5.0e-7 * abs(off) + 1.0e-12);  // also from an edge under the eye
+    vec2 ahead = off + sign(rate) * (5.0e-7 * abs(off) + 1.0e-12);  // from an edge, too
     vec2 low = near_edges.xz, high = near_edges.yw;
     if (any(lessThan(ahead, low - 1.0)) || any(greaterThanEqual(ahead, high + 1.0))) return sky;
     ivec2 cell = ivec2(greaterThanEqual(ahead, high)) - ivec2(lessThan(ahead, low));
