@@ -107,8 +107,8 @@ PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, cons
 RaySharing sharing_of(const FrameSettings& settings, const FrameReport& report) {
   constexpr double rounding_px = 1e-3;  // of the middle of a block
   const double left_px = report.bound_px - report.budget.smallest_px() - rounding_px;
-  return {report.range_m, settings.cast_every_pixel ? 0.0 : left_px, report.bound_px,
-          report.budget.geometry_px};
+  return {report.range_m, left_px, report.bound_px, report.budget.geometry_px,
+          settings.cast_every_pixel};
 }
 
 /// The frame of a method that promises nothing: no budget, no grid, the whole range.
@@ -204,9 +204,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
                                           sharing_of(settings, report), tables.tiles);
   report.rays = rays.rays;
   report.shared_px = rays.shared_px;
-  renderer.draw_terrain(blocks, tables.planes.first(report.planes),
-                        tables.slopes.first(report.rows),
-                        tables.tiles.tiles.first(static_cast<std::size_t>(rays.tiles)));
+  renderer.draw_terrain(
+      blocks, tables.planes.first(report.planes), tables.slopes.first(report.rows),
+      {tables.tiles.tiles.first(static_cast<std::size_t>(rays.tiles)), rays.ground_tiles});
   return report;
 }
 

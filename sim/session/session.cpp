@@ -179,6 +179,8 @@ Outcome Session::open_renderer() {
   ray_tiles_.resize(tiles);
   tile_steepness_.resize(tiles);
   tile_shapes_.resize(tiles);
+  tile_looks_.resize(tiles);
+  block_bearing_ = std::make_unique<BlockBearing>();
   range_words_.resize(Renderer::scratch_words(image.width_px, image.height_px));
   rgba_.resize(4 * pixels);
   warm_up();
@@ -194,7 +196,8 @@ void Session::warm_up() {
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
-                          std::span(ray_tiles_).first(1));
+                          {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
+  std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
   renderer_->shade(nothing, shader::StyleBlock{});
   static_cast<void>(renderer_->read_counters());
@@ -215,7 +218,7 @@ Session::~Session() {
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
-  const FrameTables tables{planes_, slopes_, text_, {ray_tiles_, tile_steepness_, tile_shapes_}};
+  const FrameTables tables{planes_, slopes_, text_, ray_tiles()};
   double start_ms = 0, start_core_ms = 0;
   context_->make_current();
   picture.problem = prepare(input);
