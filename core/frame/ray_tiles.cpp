@@ -159,9 +159,14 @@ void TilePlan::choose_shapes() {
 }
 
 /// Gives tiles of plain sky one ray and puts them behind the others; how many others there are.
+/// Only they have one: ground in a tile as small as its block gets a ray for every pixel.
 int part_sky(std::span<RayTile> tiles, std::span<const float> steepness) {
   for (std::size_t k = 0; k < tiles.size(); ++k) {
-    if (steepness[k] == no_ground) tiles[k].block = tiles[k].size;
+    if (steepness[k] == no_ground) {
+      tiles[k].block = tiles[k].size;
+    } else if (tiles[k].block == tiles[k].size) {
+      tiles[k].block = RayTile::pair(1, 1);
+    }
   }
   const auto sky = std::partition(tiles.begin(), tiles.end(), [](const RayTile& tile) {
     return tile.block != tile.size || tile.size == RayTile::pair(1, 1);

@@ -31,5 +31,21 @@ TEST(KnownCase, a_nadir_in_a_wide_picture_with_large_blocks) {
       "hfov=120 error=8 range=5000 pose=31.5,35.5,375,0,-90,0,0");
 }
 
+// An eye exactly on the northern edge of the data, whose rays north begin outside: seed 7105, case
+// 13.
+TEST(KnownCase, an_eye_on_the_edge_of_the_data) {
+  expect_sound(
+      "at=-17,-180 land=ridges:6490.5,4327,71256 land=checker:3.2,1 tile=dt0:-18,179 "
+      "tile=dt0:-18,-180 tile=dt0:-17,179 tile=dt0:-17,-180 window=96 arrival=settled size=160,36 "
+      "hfov=113.8 error=0.7 range=13735 pose=-16,180,3212.3,0,-8.93,45,0");
+}
+
+// The last tile before the border is as small as its block, 2 x 2 pixels: it was drawn as sky.
+TEST(KnownCase, ground_in_a_tile_as_small_as_its_block) {
+  expect_sound(
+      "at=31.5,35.5 tile=tif32:31.4,35.4,1200,1200,240,240 window=96 arrival=settled size=72,72 "
+      "hfov=60 error=1.6 range=5000 pose=31.5,35.5,675,0,-20,0,0");
+}
+
 }  // namespace
 }  // namespace ridgeline::sim

@@ -103,10 +103,27 @@ void add_other_ground_scenes(std::vector<DesignedScene>& all) {
                  every_pixel});
 }
 
+/// Far from the axis a picture is stretched, and lines of equal elevation are not square to the
+/// vertical.
+void add_wide_scenes(std::vector<DesignedScene>& all) {
+  const ImageGeometry wide{224, 176, 116};
+  all.push_back({"shared_wide",
+                 "slopes seen end on, far from the axis of wide pictures",
+                 combs("wide_combs", 0.5),
+                 options_of({.image = wide, .range_km = 8, .error_px = 2.2}),
+                 {{{46.4613, 8.5027, 900}, {0, -25, 0}},
+                  {{46.4613, 8.5027, 900}, {45, -10, 20}},
+                  {{46.4613, 8.5027, 900}, {90, 0, 30}},
+                  {{46.4713, 8.4927, 700}, {0, -35, 45}},
+                  {{46.4713, 8.4927, 700}, {-30, -20, -40}}},
+                 every_pixel});
+}
+
 }  // namespace
 
 void add_shared_scenes(std::vector<DesignedScene>& all) {
   add_steep_scenes(all);
+  add_wide_scenes(all);
   add_other_ground_scenes(all);
 }
 
