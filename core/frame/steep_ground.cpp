@@ -201,7 +201,7 @@ void Marking::mark_uncertain(const HeldBlock& block, const BlockPlace& place, bo
   // block's.
   if (unknown) heights = with_neighbours(block.id, heights);
   // A cell of the next block that uses a post of this one belongs to this one, too.
-  constexpr double more = 2.0 / block_posts;
+  const double more = 2.0 / block_posts;
   for (int part = 0; part < residual_parts * residual_parts; ++part) {
     if (!unknown && !(facts.part_residual_m[static_cast<std::size_t>(part)] > 0)) continue;
     mark(tiles_of(box_of(place, part % residual_parts, part / residual_parts, residual_parts, more,
