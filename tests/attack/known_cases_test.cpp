@@ -40,12 +40,5 @@ TEST(KnownCase, an_eye_on_the_edge_of_the_data) {
       "hfov=113.8 error=0.7 range=13735 pose=-16,180,3212.3,0,-8.93,45,0");
 }
 
-// The last tile before the border is as small as its block, 3 x 3 pixels: it was drawn as sky.
-TEST(KnownCase, ground_in_a_tile_as_small_as_its_block) {
-  expect_sound(
-      "at=31.5,35.5 tile=tif32:31.4,35.4,1200,1200,240,240 window=96 arrival=settled size=73,73 "
-      "hfov=60 error=1.6 range=5000 pose=31.5,35.5,675,0,-20,0,0");
-}
-
 }  // namespace
 }  // namespace ridgeline::sim

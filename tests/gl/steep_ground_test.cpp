@@ -84,7 +84,7 @@ class Window {
   TerrainKeeper keeper;
 };
 
-constexpr int patch_posts = 16;
+constexpr int patch_posts = 24;
 constexpr int half_side = 800;  ///< posts of the land to every side of its origin
 
 /// Nearly level land with a few patches of steep teeth, so few that a tile rarely shows two; some
@@ -94,8 +94,11 @@ struct Patches {
   float rise_m = 0;
 
   [[nodiscard]] bool steep(int column, int row) const { return lottery(column, row, seed) < 0.012; }
+  static int floor_of(int post) {
+    return static_cast<int>(std::floor(static_cast<double>(post) / patch_posts));
+  }
   float operator()(int column, int row) const {
-    const int part_column = column >> 4, part_row = row >> 4;
+    const int part_column = floor_of(column), part_row = floor_of(row);
     const float base = 600.0F + 40.0F * std::sin(0.02F * static_cast<float>(column + row));
     if (!steep(part_column, part_row)) return base;
     const auto chance = static_cast<float>(lottery(column, row, seed + 1));
@@ -270,7 +273,7 @@ Found marked_pictures(const PostLattice& lattice, const Patches& patches, int le
 }
 
 void expect_all_kinds(const Found& found) {
-  EXPECT_GT(found.points, 10'000);
+  EXPECT_GT(found.points, 6'000);
   EXPECT_GT(found.steep_points, 300);
   EXPECT_GT(found.sky_tiles, 100);
   EXPECT_GT(found.gentle_tiles, 10);
@@ -278,17 +281,17 @@ void expect_all_kinds(const Found& found) {
 }
 
 TEST(SteepGround, marks_every_tile_that_a_point_of_the_ground_shows_in) {
-  expect_all_kinds(marked_pictures({46, 8, 1.0 / 1200, 1.0 / 1200}, {31, 60}, 1, 96));
+  expect_all_kinds(marked_pictures({46, 8, 1.0 / 1200, 1.0 / 1200}, {31, 60}, 1, 64));
 }
 
 // Blocks of 59 km: at 60 km, and over their own width, the Earth bends by 280 and 137 m.
 TEST(SteepGround, marks_tiles_over_posts_far_apart) {
-  expect_all_kinds(marked_pictures({57, 8, 1.0 / 120, 1.0 / 120}, {32, 700}, 1, 96));
+  expect_all_kinds(marked_pictures({57, 8, 1.0 / 120, 1.0 / 120}, {32, 700}, 1, 64));
 }
 
 TEST(SteepGround, marks_tiles_over_several_levels) {
   const Found found = marked_pictures({46, 8, 1.0 / 1200, 1.0 / 1200}, {33, 60}, 3, 24);
-  EXPECT_GT(found.points, 10'000);
+  EXPECT_GT(found.points, 6'000);
   EXPECT_GT(found.sky_tiles, 100);
 }
 
@@ -326,11 +329,13 @@ class Plans {
   Plans(Window& window, const GeodeticPosition& eye, const Camera& camera)
       : window_(window), local_(local_frame(eye).value()), camera_(camera) {}
 
-  std::vector<std::int32_t> blocks(double bound_px, double geometry_px, BlockBearing& bearing) {
+  RayTilePlan plan(double bound_px, double geometry_px, BlockBearing& bearing) {
     const RayTileTables tables{tiles_, steepness_, shapes_, looks_, &bearing};
-    const RayTilePlan plan =
-        plan_ray_tiles(window_.keeper, local_, camera_,
-                       {20'000, 0.9 * bound_px, bound_px, geometry_px, false}, tables);
+    return plan_ray_tiles(window_.keeper, local_, camera_,
+                          {20'000, 0.9 * bound_px, bound_px, geometry_px, false}, tables);
+  }
+  std::vector<std::int32_t> blocks(double bound_px, double geometry_px, BlockBearing& bearing) {
+    const RayTilePlan plan = this->plan(bound_px, geometry_px, bearing);
     std::vector<std::int32_t> result;
     for (const RayTile& tile : std::span(tiles_).first(static_cast<std::size_t>(plan.tiles))) {
       result.push_back(tile.block);
@@ -348,6 +353,22 @@ class Plans {
   std::vector<std::uint8_t> shapes_ = std::vector<std::uint8_t>(most);
   std::vector<TileLook> looks_{most};
 };
+
+// 2026-11-25: the last tile before the border, 3 x 3 pixels and one block, was coloured as sky.
+TEST(RayTilePlan, ground_in_a_tile_as_small_as_its_block_is_no_sky) {
+  Ground ground(lattice_3s());
+  ground.add({-400, -400, 1, 1, 801, 801}, [](int, int) { return 400.0F; });
+  ground.finish();
+  Window window(ground, 1);
+  const GeodeticPosition eye{46.02, 8.02, 700};
+  window.settle(eye);
+  Plans plans(window, eye, camera({0, -50, 30}, {73, 73, 60}).value());
+  const auto bearing = std::make_unique<BlockBearing>();
+  const RayTilePlan plan = plans.plan(1.6, 0.01, *bearing);
+  EXPECT_EQ(plan.tiles, 25);
+  EXPECT_EQ(plan.ground_tiles, plan.tiles);
+  EXPECT_GT(plan.shared_px, 1.4);  // other tiles have blocks as large
+}
 
 TEST(RayTilePlan, what_blocks_bear_is_asked_anew_for_another_promise) {
   const Ground ground = land({46, 8, 1.0 / 1200, 1.0 / 1200}, {34, 20});

@@ -122,8 +122,6 @@ void add_wide_scenes(std::vector<DesignedScene>& all) {
       {{46.4713, 8.4927, 900}, {45, 25, -20}}, {{46.4713, 8.4927, 700}, {-30, 20, 35}}};
   all.push_back({"shared_wide", "slopes seen end on, far from the axis of wide pictures", bands,
                  options_of({.image = wide, .range_km = 8, .error_px = 2.2}), poses, every_pixel});
-  all.push_back({"shared_wide_blocks", "the same in larger blocks", bands,
-                 options_of({.image = wide, .range_km = 8, .error_px = 3.8}), poses, every_pixel});
 }
 
 }  // namespace
