@@ -78,6 +78,8 @@ class Marking {
   void mark_slopes(const BlockFacts& facts, const BlockPlace& place, double near_m);
   [[nodiscard]] BlockPlace place_of(const HeldBlock& block, const glm::dvec3& way) const;
   [[nodiscard]] HeightRange with_neighbours(const BlockId& id, HeightRange range) const;
+  /// Radius of a ball about the block's centre that holds all that mark_uncertain() marks.
+  [[nodiscard]] double ball_of_floors_m(const HeldBlock& block) const;
   /// Part `column`, `row` of so many a side, grown by a share of the block.
   [[nodiscard]] GroundBox box_of(const BlockPlace& place, int column, int row, int parts,
                                  double more, const HeightRange& heights) const;
@@ -108,8 +110,12 @@ BlockPlace Marking::place_of(const HeldBlock& block, const glm::dvec3& way) cons
   const double far = glm::length(way) / smallest_radius_m;
   const double reach_deg = std::min(std::abs(latitude_deg) + 2.0, 88.0);
   BlockPlace place;
-  place.bend = far * (1.0 + std::tan(reach_deg * rad_per_deg));
-  place.slip_m = place.bend * std::hypot(east_m, north_m) + slip_m;
+  const double bend_of_latitude = 1.0 + std::tan(reach_deg * rad_per_deg);
+  place.bend = far * bend_of_latitude;
+  const double half_m = 0.5 * std::hypot(east_m, north_m);
+  // A block bends over its own width as well: much, where the posts are far apart.
+  const double turned = bend_of_latitude * (2.0 * far + half_m / (2.0 * smallest_radius_m));
+  place.slip_m = slip_m + half_m * turned;
   place.middle_m = 0.5 * (heights.low_m + heights.high_m);
   place.middle = camera_from_enu_ * way;
   place.east = camera_from_enu_[0] * east_m;
@@ -128,6 +134,12 @@ HeightRange Marking::with_neighbours(const BlockId& id, HeightRange range) const
     }
   }
   return range;
+}
+
+double Marking::ball_of_floors_m(const HeldBlock& block) const {
+  const HeightRange own = heights_of(block.facts), all = with_neighbours(block.id, own);
+  constexpr double cells_beside = 1.1;  // that use a post of the block
+  return cells_beside * block.facts.radius_m + (own.low_m - all.low_m) + (all.high_m - own.high_m);
 }
 
 GroundBox Marking::box_of(const BlockPlace& place, int column, int row, int parts, double more,
@@ -189,7 +201,7 @@ void Marking::mark_uncertain(const HeldBlock& block, const BlockPlace& place, bo
   // block's.
   if (unknown) heights = with_neighbours(block.id, heights);
   // A cell of the next block that uses a post of this one belongs to this one, too.
-  constexpr double more = 2.0 / block_posts;
+  const double more = 2.0 / block_posts;
   for (int part = 0; part < residual_parts * residual_parts; ++part) {
     if (!unknown && !(facts.part_residual_m[static_cast<std::size_t>(part)] > 0)) continue;
     mark(tiles_of(box_of(place, part % residual_parts, part / residual_parts, residual_parts, more,
@@ -227,7 +239,9 @@ void Marking::mark_block(const HeldBlock& block) {
   const bool uncertain = unknown || facts.residual_m > 0;
   const Vec3<Enu> way = enu_from_ecef_ * (facts.centre - local_.eye_ecef);
   const double far_m = glm::length(way.xyz);
-  if (far_m - facts.radius_m > limits_.range_m) return;
+  // Walls of floors may reach farther down than the ball, and so nearer to a low eye.
+  const double ball_m = unknown ? ball_of_floors_m(block) : facts.radius_m;
+  if (far_m - ball_m > limits_.range_m) return;
   if (!unknown && far_m > facts.radius_m) {  // out of sight
     const glm::dvec3 p = camera_from_enu_ * way.xyz;
     const double spread_rad = std::asin(facts.radius_m / far_m);

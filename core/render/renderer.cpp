@@ -346,13 +346,18 @@ void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scr
   };
   const RayTile all{0, 0, RayTile::pair(sizes_.width_px, sizes_.height_px), RayTile::pair(1, 1)};
   const std::span<const RayTile> whole(&all, 1);
-  for (const RayTile& tile : tiles_shown_.tiles.empty() ? whole : tiles_shown_.tiles) {
+  const bool tiled = !tiles_shown_.tiles.empty();
+  int before = 0;
+  for (const RayTile& tile : tiled ? tiles_shown_.tiles : whole) {
+    const bool plain_sky = tiled && before++ >= tiles_shown_.ground;  // coloured without its ray
     const BlockShape block = tile.shape();
     for (int y = 0; y < tile.height(); ++y) {
       for (int x = 0; x < tile.width(); ++x) {
         const auto pixel =
             static_cast<std::size_t>(tile.y() + y) * width + static_cast<std::size_t>(tile.x() + x);
-        range_m[pixel] = shown(tile.rays_x() + x / block.width, tile.rays_y() + y / block.height);
+        range_m[pixel] =
+            plain_sky ? std::numeric_limits<float>::infinity()
+                      : shown(tile.rays_x() + x / block.width, tile.rays_y() + y / block.height);
       }
     }
   }

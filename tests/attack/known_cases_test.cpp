@@ -31,5 +31,14 @@ TEST(KnownCase, a_nadir_in_a_wide_picture_with_large_blocks) {
       "hfov=120 error=8 range=5000 pose=31.5,35.5,375,0,-90,0,0");
 }
 
+// An eye exactly on the northern edge of the data, whose rays north begin outside: seed 7105, case
+// 13.
+TEST(KnownCase, an_eye_on_the_edge_of_the_data) {
+  expect_sound(
+      "at=-17,-180 land=ridges:6490.5,4327,71256 land=checker:3.2,1 tile=dt0:-18,179 "
+      "tile=dt0:-18,-180 tile=dt0:-17,179 tile=dt0:-17,-180 window=96 arrival=settled size=160,36 "
+      "hfov=113.8 error=0.7 range=13735 pose=-16,180,3212.3,0,-8.93,45,0");
+}
+
 }  // namespace
 }  // namespace ridgeline::sim

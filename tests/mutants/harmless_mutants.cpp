@@ -36,7 +36,7 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "A node is passed only if it stays under the ray but for the swell: what a pixel then "
        "misses "
        "it meets by less than 1.66e-6 rad. The rest as for ray_without_swell."},
-      {{"way_turned", "core/frame/ray_tiles.cpp", "std::atan2(upright.way.y, upright.way.x)",
+      {{"way_turned", "core/frame/tile_look.cpp", "std::atan2(upright.way.y, upright.way.x)",
         "std::atan2(upright.way.x, -upright.way.y)",
         "blocks are asked what they bear at a right angle to the vertical", "shared_combs_rolled"},
        "A square block, its lattice and the pixels within reach are the same turned by a right "
@@ -46,7 +46,8 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "turned pair may bear up to a fifth more than an upright one, but never more than an "
        "upright "
        "one without loss, and that is enough: loss_zero)."},
-      {{"loss_zero", "core/frame/ray_tiles.cpp", "sharing_.geometry_px", "0.0",
+      {{"loss_zero", "core/frame/ray_tiles.cpp",
+        "std::ceil(sharing.geometry_px / loss_step_px) * loss_step_px", "0.0",
         "what rounding moves is not counted between a pixel and its witness", "shared_combs"},
        "What a witness c shows is the truth at some c' within geometry_px of c. Take p' = p + (c' "
        "- "

@@ -5,7 +5,8 @@ namespace ridgeline::test {
 const std::vector<Mutant>& mutants() {
   static const std::vector<Mutant> all = [] {
     std::vector<Mutant> joined;
-    for (const auto table : {shader_mutants(), terrain_mutants(), frame_mutants()}) {
+    for (const auto table :
+         {shader_mutants(), terrain_mutants(), frame_mutants(), shared_mutants()}) {
       joined.insert(joined.end(), table.begin(), table.end());
     }
     for (const HarmlessMutant& harmless : harmless_mutants()) joined.push_back(harmless.mutant);

@@ -35,6 +35,7 @@ struct HarmlessMutant {
 [[nodiscard]] std::span<const Mutant> shader_mutants();
 [[nodiscard]] std::span<const Mutant> terrain_mutants();
 [[nodiscard]] std::span<const Mutant> frame_mutants();
+[[nodiscard]] std::span<const Mutant> shared_mutants();
 
 /// How often a text stands in another, overlaps included.
 [[nodiscard]] int count_of(std::string_view text, std::string_view wanted);

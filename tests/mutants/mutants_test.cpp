@@ -129,6 +129,12 @@ INSTANTIATE_TEST_SUITE_P(Frame, Mutated,
                                                         terrain_mutants().size(),
                                                     frame_mutants().size())),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Shared, Mutated,
+                         testing::ValuesIn(range_of(shader_mutants().size() +
+                                                        terrain_mutants().size() +
+                                                        frame_mutants().size(),
+                                                    shared_mutants().size())),
+                         name_of);
 
 class Harmless : public testing::TestWithParam<int> {};
 
@@ -173,8 +179,9 @@ TEST(HarmlessReasons, a_block_turned_by_a_right_angle_bears_no_more) {
       for (int k = -45; k <= 45; ++k) {
         const double angle = k * std::numbers::pi / 180;
         const glm::dvec2 way(std::sin(angle), std::cos(angle)), across(way.y, -way.x);
-        const double upright = steepest_for_block(shape, shape, way, reach_px, 0.0);
-        const double turned = steepest_for_block(shape, shape, across, reach_px, 0.0);
+        const BlockPair pair{shape, shape, 32 % shape.width == 0 && 32 % shape.height == 0};
+        const double upright = steepest_for_block(pair, way, {reach_px});
+        const double turned = steepest_for_block(pair, across, {reach_px});
         if (turned > 0) most = std::max(most, turned / std::max(upright, 1e-9));
       }
     }

@@ -62,6 +62,8 @@ inline constexpr GridSpacing fine_rows{3.0, 0.1};
 void add_level_scenes(std::vector<DesignedScene>& all);
 /// Scenes in which pixels share rays.
 void add_shared_scenes(std::vector<DesignedScene>& all);
+/// Scenes in which whole tiles are sky, or nearly.
+void add_sky_scenes(std::vector<DesignedScene>& all);
 /// Scenes round a pole.
 void add_polar_scenes(std::vector<DesignedScene>& all);
 /// Scenes whose true error is a large share of the bound.

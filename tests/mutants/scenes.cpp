@@ -325,6 +325,17 @@ void add_other_scenes(std::vector<DesignedScene>& all) {
                  over_geoid,
                  options,
                  {{{46.0131, 9.0272, 1450}, {0, -50, 30}}}});
+  // Beyond the edge the ground is unknown up to the hills, higher than the eye: a ray south that
+  // began there would end at once.
+  const DesignedLand edge_hills =
+      coarse("edge_hills", alps, [](double latitude_deg, double longitude_deg) {
+        return 800 - 500 * std::cos((longitude_deg - 8.5) * 94.2) + 20 * (latitude_deg - 47);
+      });
+  all.push_back({"data_edge",
+                 "a low eye exactly on the northern edge of the data",
+                 edge_hills,
+                 options_of({.image = {96, 72, 100}, .range_km = 15}),
+                 {{{47, 8.5, 700}, {0, -9, 100}}, {{47, 8.5, 600}, {0, -9, 190}}}});
   const DesignedLand edited{"edited", [](const std::string& folder) {
                               write_coarse_cells(folder, alps, rough_m);
                               std::ofstream(folder + "/edits.txt")
@@ -355,6 +366,7 @@ const std::vector<DesignedScene>& designed_scenes() {
     add_polar_scenes(scenes);
     add_sharp_scenes(scenes);
     add_shared_scenes(scenes);
+    add_sky_scenes(scenes);
     return scenes;
   }();
   return all;

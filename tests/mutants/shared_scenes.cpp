@@ -103,10 +103,32 @@ void add_other_ground_scenes(std::vector<DesignedScene>& all) {
                  every_pixel});
 }
 
+/// Far from the axis a picture is stretched, and lines of equal elevation are not square to the
+/// vertical.
+void add_wide_scenes(std::vector<DesignedScene>& all) {
+  const ImageGeometry wide{224, 176, 118};
+  // Teeth of four slopes, in bands one behind the other.
+  const DesignedLand bands = fine("wide_combs", [](double latitude_deg, double longitude_deg) {
+    const FinePost at = fine_post(latitude_deg, longitude_deg);
+    constexpr double slopes[] = {0.25, 0.45, 0.7, 1.1};
+    const auto along = static_cast<double>(at.row % 16);
+    const double there = std::clamp(std::min(along, 12 - along) / 5, 0.0, 1.0);
+    return 400 + (at.column % 2 == 1 ? slopes[at.row / 16 % 4] * column_m * there : 0.0);
+  });
+  // Nose up, so that ground is seen far below the axis and yet not steeply from above.
+  const std::vector<ScenePose> poses{
+      {{46.4613, 8.5027, 800}, {0, 20, 0}},    {{46.4573, 8.5067, 950}, {0, 28, 3}},
+      {{46.4613, 8.5027, 800}, {90, 30, 0}},   {{46.4713, 8.4927, 700}, {0, 20, -45}},
+      {{46.4713, 8.4927, 900}, {45, 25, -20}}, {{46.4713, 8.4927, 700}, {-30, 20, 35}}};
+  all.push_back({"shared_wide", "slopes seen end on, far from the axis of wide pictures", bands,
+                 options_of({.image = wide, .range_km = 8, .error_px = 2.2}), poses, every_pixel});
+}
+
 }  // namespace
 
 void add_shared_scenes(std::vector<DesignedScene>& all) {
   add_steep_scenes(all);
+  add_wide_scenes(all);
   add_other_ground_scenes(all);
 }
 
