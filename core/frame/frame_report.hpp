@@ -6,6 +6,7 @@
 #include "core/geo/camera.hpp"
 #include "core/geo/local_frame.hpp"
 #include "core/monitor/availability.hpp"
+#include "core/monitor/frame_work.hpp"
 #include "core/render/frame_blocks.hpp"
 #include "core/render/renderer.hpp"
 
@@ -25,6 +26,9 @@ struct FrameReport {
   int rays = 0;          ///< of the picture: one a block of pixels
   double shared_px = 0;  ///< largest distance of a pixel from its ray
   WindowSummary window;
+  FrameWork work;                          ///< done for it
+  ShadeDetail detail = ShadeDetail::full;  ///< as planned by the frame-budget monitor
+  bool finished_coarser = false;           ///< late: finished with a larger bound than planned
 };
 
 /// What the GPU counted and how long it took; read where the frame is waited for anyway.

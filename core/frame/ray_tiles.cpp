@@ -403,14 +403,17 @@ void TilePlan::choose_shapes() {
 
 RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
                            const Camera& camera, const RaySharing& sharing,
-                           const RayTileTables& tables) {
-  const int ring_px = static_cast<int>(sharing.bound_px + neighbour_px) + 1;
+                           const RayTileTables& tables, const TileCut& cut) {
+  const double reach_px = std::min(sharing.bound_px + neighbour_px, farthest_witness_px);
+  const int ring_px = std::max(static_cast<int>(reach_px) + 1, cut.from_px > 0 ? cut_ring_px : 0);
   const bool polar = terrain.lattice().polar();  // its blocks have no east and north
-  const bool small = std::min(camera.width_px, camera.height_px) < 4 * ring_px;
+  const bool small = std::min(camera.width_px, camera.height_px - cut.from_px) < 4 * ring_px;
   const bool shared = !polar && !small && sharing.slack_px >= BlockShape{1, 2}.radius_px();
   const TileAxis across{camera.width_px, shared ? ring_px : 0};
-  const TileAxis down{camera.height_px, shared ? ring_px : 0};
+  const TileAxis down{camera.height_px, shared ? ring_px : 0, cut.from_px, cut.kept_rows};
   RayTilePlan result;
+  result.columns = across.count();
+  result.rows = down.count();
   result.tiles = put_tiles(across, down, tables.tiles);
   if (shared) {
     std::fill_n(tables.steepness.begin(), result.tiles, 0.0F);

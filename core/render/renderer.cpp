@@ -27,6 +27,21 @@ constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
                                                                      "#define level_count 5\n",
                                                                      "#define level_count 6\n"};
 static_assert(max_levels == 6);
+constexpr std::array<std::string_view, shading_count> shade_defines{
+    "#define shading 0\n", "#define shading 1\n", "#define shading 2\n"};
+
+/// Two sets of lines, one after the other.
+struct JoinedDefines {
+  std::array<char, 64> text{};
+  std::size_t size = 0;
+
+  JoinedDefines(std::string_view first, std::string_view second) {
+    RL_ASSERT(first.size() + second.size() <= text.size());
+    size = first.copy(text.data(), first.size());
+    size += second.copy(text.data() + size, second.size());
+  }
+  [[nodiscard]] std::string_view view() const { return {text.data(), size}; }
+};
 
 GLuint groups(int count, int size) {
   return static_cast<GLuint>((count + size - 1) / size);
@@ -107,10 +122,16 @@ Status Renderer::make_programs(ShaderLog log) {
   };
   for (const Drawn& entry :
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
-        Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
         Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
+    if (!made) return made;
+  }
+  for (std::size_t k = 0; k < shading_count; ++k) {
+    const JoinedDefines both(defines, shade_defines[k]);
+    const Status made = take(
+        make_draw_program("shade", shader::tile_rays_vert, shader::shade_frag, log, both.view()),
+        shade_[k]);
     if (!made) return made;
   }
   return {};
@@ -252,6 +273,13 @@ void Renderer::end_range() {
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
                             std::span<const float> slopes, std::span<const RayTile> tiles) {
+  begin_terrain(blocks, planes, slopes, tiles);
+  draw_tiles(range_target_, ray_cast_, rays_width(), rays_height());
+  end_range();
+}
+
+void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                             std::span<const float> slopes, std::span<const RayTile> tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
   write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
@@ -268,12 +296,39 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  draw_tiles(range_target_, ray_cast_, rays_width(), rays_height());
-  end_range();
+}
+
+void Renderer::cast_tiles(std::size_t first, std::size_t count) {
+  RL_ASSERT(first + count <= tiles_shown_.size());
+  // ES 3.1 draws instances from the first on: the records are read from a later place instead.
+  const auto read_from = [this](std::size_t tile) {
+    glBindVertexArray(tile_vertices_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
+    // An offset into the bound buffer goes by the type of a pointer.
+    const void* offset = reinterpret_cast<const void*>(tile * sizeof(RayTile));  // NOLINT
+    glVertexAttribIPointer(shader::tile_attribute, 4, GL_INT, sizeof(RayTile), offset);
+  };
+  read_from(first);
+  draw_into(range_target_, ray_cast_, rays_width(), rays_height(), static_cast<int>(count));
+  read_from(0);
+  glBindVertexArray(0);
+}
+
+void Renderer::replace_tiles(const FrameBlocks& blocks, std::span<const RayTile> tiles) {
+  tiles_shown_ = tiles;
+  write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
+  write_frame_block(blocks);
 }
 
 void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int width,
                           int height) const {
+  glBindVertexArray(tiles_shown_.empty() ? single_vertices_.name() : tile_vertices_.name());
+  draw_into(target, program, width, height, tile_count());
+  glBindVertexArray(0);
+}
+
+void Renderer::draw_into(const Framebuffer& target, const Program& program, int width, int height,
+                         int count) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, width, height);
   glDisable(GL_BLEND);
@@ -282,9 +337,7 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  glBindVertexArray(tiles_shown_.empty() ? single_vertices_.name() : tile_vertices_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tile_count());
-  glBindVertexArray(0);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -296,7 +349,7 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
-void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style) {
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
   write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
@@ -305,7 +358,8 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  draw_tiles(shaded_target_, shade_, rays_width(), rays_height());
+  draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], rays_width(),
+             rays_height());
   bind_texture(shader::shaded_unit, shaded_);
   draw_tiles(colour_target_, present_, sizes_.width_px, sizes_.height_px);
   timer_.stamp(pass_count);

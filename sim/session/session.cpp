@@ -196,7 +196,9 @@ void Session::warm_up() {
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
                           std::span(ray_tiles_).first(1));
   renderer_->upload_text(text_);
-  renderer_->shade(nothing, shader::StyleBlock{});
+  for (const Shading shading : {Shading::facets, Shading::no_lines, Shading::full}) {
+    renderer_->shade(nothing, shader::StyleBlock{}, shading);
+  }
   static_cast<void>(renderer_->read_counters());
 }
 
@@ -235,6 +237,7 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     picture.report =
         draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
+    end_pace(settings, picture.report);
   }
   picture.cpu_ms = now_ms() - start_ms;
   picture.core_ms = process_ms() - start_core_ms;
