@@ -4,7 +4,7 @@ layout(binding = range_unit) uniform highp usampler2D range_texture;
 layout(location = 0) out vec4 colour;
 
 // How much is made of the ground (Shading in core/render/renderer.hpp): 0 everything, 1 without
-// lines, 2 each cell lit by itself.
+// lines, 2 each cell lit by itself, 3 none is drawn.
 #ifndef shading
 #define shading 0
 #endif
@@ -138,6 +138,9 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   vec2 pixel = ray_pixel(texel);
   vec3 direction = pixel_ray(pixel);
+#if shading == 3
+  vec3 seen = plain_colour(direction, pixel + 0.5);
+#else
   Ray r = make_ray(direction);
   float t = uintBitsToFloat(texelFetch(range_texture, texel, 0).r);
   vec3 seen = ground_colour(direction, r, min(abs(t), ray_origin.w));
@@ -147,5 +150,6 @@ void main() {
   seen = t < 0.0 ? unknown : seen;
   seen = abs(t) >= sky ? sky_colour(r.up) : seen;
   seen = legend.x < 0.5 ? plain_colour(direction, pixel + 0.5) : seen;
+#endif
   colour = vec4(seen, 1.0);
 }

@@ -140,10 +140,9 @@ void tell_plan(const FrameSettings& settings, const FramePlan& plan, FrameReport
   if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
 }
 
-/// A picture without terrain shows nothing that shading could make anything of.
 Shading shading_of(const FrameReport& report) {
   const bool removed = report.availability.mode == Mode::removed;
-  return removed ? Shading::facets : static_cast<Shading>(report.detail);
+  return removed ? Shading::plain : static_cast<Shading>(report.detail);
 }
 
 FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
@@ -244,7 +243,7 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
   renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid),
                  shading_of(report));
   const auto pixels = static_cast<std::int64_t>(report.camera.width_px) * report.camera.height_px;
-  report.work.shaded = report.rays > 0 ? report.rays : pixels;
+  report.work.shaded = report.rays;
   report.work.pixels = pixels;
   return report;
 }
@@ -266,7 +265,7 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
     report.bound_px = 0;
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
-                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::facets);
+                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain);
   }
   return counts;
 }

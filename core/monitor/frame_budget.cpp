@@ -108,13 +108,13 @@ void learn(FrameBudget& budget, const FrameTally& tally) {
 }
 
 void shed_to(FrameBudget& budget, int step) {
-  const bool did_not_last = budget.since_better < budget.hold_frames;
-  if (did_not_last) {
+  if (budget.better_lasts && budget.since_better < budget.hold_frames) {
     budget.hold_frames = std::min(2 * budget.hold_frames, limits::budget_most_hold_frames);
   }
   if (step == budget.none_step()) {
     budget.hold_frames = std::max(budget.hold_frames, limits::budget_none_hold_frames);
   }
+  budget.better_lasts = false;
   budget.step = step;
   budget.calm_frames = 0;
   ++budget.counters.sheds;
@@ -125,6 +125,7 @@ void restore_to(FrameBudget& budget, int step) {
   budget.step = step;
   budget.calm_frames = 0;
   budget.since_better = 0;
+  budget.better_lasts = true;
   ++budget.counters.restores;
 }
 
@@ -140,9 +141,10 @@ void choose(FrameBudget& budget, const FrameTally& tally) {
   const auto deadline_ns = static_cast<double>(budget.settings.deadline_ns);
   const int none = budget.none_step(), step = budget.step;
   budget.on_trial = false;
-  ++budget.since_better;
-  if (budget.since_better == limits::budget_forget_holds * budget.hold_frames) {
+  if (budget.better_lasts &&
+      ++budget.since_better > limits::budget_forget_holds * budget.hold_frames) {
     budget.hold_frames = limits::budget_hold_frames;
+    budget.better_lasts = false;  // and counts as good
   }
   if (tally.given_up) return shed_to(budget, none);
   if (step == none) {
@@ -152,7 +154,10 @@ void choose(FrameBudget& budget, const FrameTally& tally) {
   }
   if (!(budget.base_ns > 0)) return;
   if (predicted_ns(budget, step) > limits::budget_full_share * deadline_ns) {
-    return shed_to(budget, first_that_fits(budget, step + 1, limits::budget_aim_share));
+    const int fits = first_that_fits(budget, step + 1, limits::budget_aim_share);
+    // Terrain does not go on a guess: the largest bound is tried before.
+    const bool guessed = fits == none && step < none - 1 && !budget.relative_known[at(none - 1)];
+    return shed_to(budget, guessed ? none - 1 : fits);
   }
   const int better = first_that_fits(budget, 0, limits::budget_calm_share);
   budget.calm_frames = better < step ? budget.calm_frames + 1 : 0;
@@ -218,7 +223,9 @@ double predicted_ns(const FrameBudget& budget, int step) {
 }
 
 LateVerdict late_verdict(const FrameBudget& budget, const LateQuestion& question) {
-  const double slowness = std::max(slowness_of(budget), question.cast_slowness);
+  // In the very first frame nothing is known of the machine but what the frame itself shows.
+  const double before = budget.recent == 0 ? 0.0 : slowness_of(budget);
+  const double slowness = std::max(before, question.cast_slowness);
   const double end_ns =
       static_cast<double>(question.elapsed_ns) + slowness * static_cast<double>(question.left_ns);
   if (end_ns <= limits::budget_late_share * static_cast<double>(budget.settings.deadline_ns)) {

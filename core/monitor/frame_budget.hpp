@@ -60,7 +60,8 @@ struct FrameBudget {
   int step = 0;
   bool on_trial = false;
   int calm_frames = 0, hold_frames = limits::budget_hold_frames;
-  int since_better = limits::budget_most_hold_frames * limits::budget_forget_holds;
+  int since_better = 0;       ///< frames since the last better step
+  bool better_lasts = false;  ///< it was not taken back yet
   /// Work of a step over that of step 0: a guess until two neighbouring frames have shown it.
   std::array<double, limits::budget_steps> relative{};
   std::array<bool, limits::budget_steps> relative_known{};

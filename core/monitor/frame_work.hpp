@@ -21,7 +21,7 @@ struct FrameWork {
   std::int64_t plans = 0;       ///< of ray tiles, in thousandths of a picture
   std::int64_t nodes = 0;       ///< of the grid, swept
   std::int64_t rays = 0;        ///< cast
-  std::int64_t shaded = 0;      ///< rays that are shaded
+  std::int64_t shaded = 0;      ///< rays that are shaded; none without terrain
   std::int64_t pixels = 0;      ///< of the picture, filled
 
   friend constexpr FrameWork operator+(const FrameWork& a, const FrameWork& b) {

@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
                                                                      "#define level_count 6\n"};
 static_assert(max_levels == 6);
 constexpr std::array<std::string_view, shading_count> shade_defines{
-    "#define shading 0\n", "#define shading 1\n", "#define shading 2\n"};
+    "#define shading 0\n", "#define shading 1\n", "#define shading 2\n", "#define shading 3\n"};
 
 /// Two sets of lines, one after the other.
 struct JoinedDefines {

@@ -24,9 +24,9 @@ struct RenderSizes {
 inline constexpr double gpu_bytes_per_post = 4.0 * (1.0 + 0.375);
 
 /// How much the shade pass makes of the ground: everything; no lines on it; each cell lit by
-/// itself.
-enum class Shading : std::uint8_t { full, no_lines, facets };
-inline constexpr std::size_t shading_count = 3;
+/// itself; no ground at all, for frames without terrain.
+enum class Shading : std::uint8_t { full, no_lines, facets, plain };
+inline constexpr std::size_t shading_count = 4;
 
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {

@@ -144,9 +144,10 @@ void Session::apply_edits(double time_s) {
 void Session::open_terrain(double far_floor) {
   const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
   options_.settings.geoid = geoid;
-  const auto arrival = options_.arrival == SceneOptions::Arrival::as_ready
-                           ? BlockWorker::Arrival::as_ready
-                           : BlockWorker::Arrival::in_step;
+  using From = SceneOptions::Arrival;
+  const auto arrival = options_.arrival == From::as_ready      ? BlockWorker::Arrival::as_ready
+                       : options_.arrival == From::as_recorded ? BlockWorker::Arrival::as_recorded
+                                                               : BlockWorker::Arrival::in_step;
   worker_ = std::make_unique<BlockWorker>(
       *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival, polar_,
                                       options_.read_delay_us});
@@ -196,7 +197,8 @@ void Session::warm_up() {
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
                           std::span(ray_tiles_).first(1));
   renderer_->upload_text(text_);
-  for (const Shading shading : {Shading::facets, Shading::no_lines, Shading::full}) {
+  for (const Shading shading :
+       {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
     renderer_->shade(nothing, shader::StyleBlock{}, shading);
   }
   static_cast<void>(renderer_->read_counters());
@@ -205,7 +207,8 @@ void Session::warm_up() {
 void Session::settle_if_due(const FrameInput& input) {
   const bool placed = input.availability.mode != Mode::removed && local_frame(input.eye).ok();
   const bool always = options_.arrival == SceneOptions::Arrival::settled;
-  const bool never = options_.arrival == SceneOptions::Arrival::as_ready;
+  const bool never = options_.arrival == SceneOptions::Arrival::as_ready ||
+                     options_.arrival == SceneOptions::Arrival::as_recorded;
   if (!placed || never || (settled_ && !always)) return;
   terrain_->settle(input.eye, *renderer_);
   settled_ = true;
@@ -243,6 +246,11 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
   picture.core_ms = process_ms() - start_core_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
   picture.take = worker_->last_take();
+  if (settings.pace != nullptr) {
+    const PaceRecord& record = settings.pace->record();
+    picture.plan = record.plan;
+    picture.elapsed_ns = record.readings[record.readings.size() - 1].elapsed_ns;
+  }
   if (method_ != nullptr && picture.report.availability.mode != Mode::removed) {
     picture.method = method_->facts();
     picture.counts.ray_cast_share = picture.method.ray_cast_share;

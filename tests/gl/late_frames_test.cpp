@@ -2,6 +2,7 @@
 // such picture is sound and complete for that bound.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "core/monitor/frame_pace.hpp"
@@ -65,67 +66,122 @@ struct Stall {
   double error_px;
 };
 
-class LateFrames : public testing::TestWithParam<Stall> {
- protected:
-  /// Shoots all poses with every frame stalled so, and has every pixel judged.
-  static void expect_sound_when_late(const Land& land) {
-    const Stall& stall = GetParam();
-    StallingClock clock;
-    clock.stage = stall.stage;
-    clock.reading = stall.reading;
-    clock.stall_ns = 2 * limits::default_deadline_ns;
-    FramePace pace({limits::default_deadline_ns, stall.error_px, limits::budget_most_px}, clock);
-    // Each frame by itself, as if the ones before had been in time.
-    Scene scene(land, options_of(stall.error_px), place);
-    std::size_t drawn = 0;
-    int coarser = 0;
-    for (const Pose& pose : poses) {
-      FramePace alone = pace;
-      scene.settings().pace = &alone;
-      const sim::Picture picture = scene.shoot(pose);
-      const FrameReport& report = picture.report;
-      if (report.availability.mode == Mode::removed) continue;
-      ++drawn;
-      coarser += report.finished_coarser ? 1 : 0;
-      if (!report.finished_coarser) continue;
-      EXPECT_EQ(report.bound_px, limits::budget_most_px);
-      EXPECT_EQ(report.availability.mode, Mode::degraded);
-      EXPECT_EQ(alone.budget().counters.late_finishes, 1U);
-      EXPECT_EQ(report.work.rays, report.rays);
-      EXPECT_LE(report.shared_px + report.budget.smallest_px(), report.bound_px);
-    }
-    EXPECT_GE(drawn, 4U);
-    EXPECT_GE(coarser, 4);
-    const oracle::VerifySummary summary = scene.judged(pixel_count);
-    EXPECT_EQ(summary.frames - summary.removed_frames, drawn);
-    EXPECT_EQ(summary.violations(), 0U) << (summary.details.empty() ? "" : summary.details.front());
-    EXPECT_LE(summary.undecided, summary.pixels / 1000);
+/// Draws all poses with every frame stalled so, has every pixel of every picture judged, and
+/// expects so many frames finished with a larger bound.
+void expect_sound_when_late(const Land& land, const Stall& stall, int least_coarser) {
+  StallingClock clock;
+  clock.stage = stall.stage;
+  clock.reading = stall.reading;
+  clock.stall_ns = 2 * limits::default_deadline_ns;
+  const FramePace in_time({limits::default_deadline_ns, stall.error_px, limits::budget_most_px},
+                          clock);
+  Scene scene(land, options_of(stall.error_px), place);
+  std::size_t drawn = 0;
+  int coarser = 0;
+  for (const Pose& pose : poses) {
+    FramePace pace = in_time;  // each frame by itself, as if those before had been in time
+    scene.settings().pace = &pace;
+    const sim::Picture picture = scene.shoot(pose);
+    const FrameReport& report = picture.report;
+    if (report.availability.mode == Mode::removed) continue;
+    ++drawn;
+    EXPECT_EQ(report.work.rays, report.rays);
+    if (!report.finished_coarser) continue;
+    ++coarser;
+    EXPECT_EQ(report.bound_px, limits::budget_most_px);
+    EXPECT_EQ(report.availability.mode, Mode::degraded);
+    EXPECT_EQ(pace.budget().counters.late_finishes, 1U);
+    EXPECT_LE(report.shared_px + report.budget.smallest_px(), report.bound_px);
   }
-};
-
-TEST_P(LateFrames, are_sound_over_hills) {
-  const Land land(hills_m);
-  land.add_tile(46, 8);
-  expect_sound_when_late(land);
+  EXPECT_GE(coarser, least_coarser);
+  const oracle::VerifySummary summary = scene.judged(pixel_count);
+  EXPECT_EQ(summary.frames - summary.removed_frames, drawn);
+  EXPECT_EQ(summary.violations(), 0U) << (summary.details.empty() ? "" : summary.details.front());
+  EXPECT_LE(summary.undecided, summary.pixels / 1000);
 }
 
-TEST_P(LateFrames, are_sound_over_spires) {
+TEST(LateFrames, are_sound_when_planned_anew_from_the_start) {
   const Land land(spires_m);
   land.add_tile(46, 8);
-  expect_sound_when_late(land);
+  expect_sound_when_late(land, {FrameStage::plan, 1, 1.0}, 4);
 }
 
-TEST_P(LateFrames, are_sound_over_rough_land_with_voids) {
+TEST(LateFrames, are_sound_when_cut_below_single_rays) {
+  const Land land(hills_m);
+  land.add_tile(46, 8);
+  expect_sound_when_late(land, {FrameStage::cast, 1, 0.3}, 4);
+}
+
+TEST(LateFrames, are_sound_when_cut_below_shared_rays) {
+  const Land land(spires_m);
+  land.add_tile(46, 8);
+  expect_sound_when_late(land, {FrameStage::cast, 1, 1.0}, 4);
+  expect_sound_when_late(land, {FrameStage::cast, 2, 1.5}, 4);
+}
+
+TEST(LateFrames, are_sound_beside_voids) {
   const RoughTile land;
-  expect_sound_when_late(land);
+  expect_sound_when_late(land, {FrameStage::cast, 1, 1.0}, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stalls, LateFrames,
-                         testing::Values(Stall{FrameStage::plan, 1, 1.0},
-                                         Stall{FrameStage::cast, 1, 0.3},
-                                         Stall{FrameStage::cast, 1, 1.0},
-                                         Stall{FrameStage::cast, 2, 1.5},
-                                         Stall{FrameStage::cast, 3, 1.0}));
+/// What is left at the bottom has no room for a border: it is finished as planned, and is late.
+TEST(LateFrames, keep_their_bound_where_too_little_is_left) {
+  const Land land(hills_m);
+  land.add_tile(46, 8);
+  StallingClock clock;
+  clock.reading = 4;
+  clock.stall_ns = 2 * limits::default_deadline_ns;
+  FramePace pace({limits::default_deadline_ns, 1.0, limits::budget_most_px}, clock);
+  Scene scene(land, options_of(1.0), place);
+  scene.settings().pace = &pace;
+  const sim::Picture picture = scene.draw(poses.front());
+  EXPECT_FALSE(picture.report.finished_coarser);
+  EXPECT_EQ(picture.report.bound_px, 1.0);
+  EXPECT_EQ(pace.budget().counters.overruns[static_cast<std::size_t>(OverrunCause::cast)], 1U);
+}
+
+/// On trial, after frames without terrain, a frame that is late goes without it as well.
+TEST(LateFrames, on_trial_are_given_up) {
+  const Land land(hills_m);
+  land.add_tile(46, 8);
+  WorkClock slow(300.0);
+  FramePace pace({limits::default_deadline_ns, 1.0, limits::budget_most_px}, slow);
+  Scene scene(land, options_of(1.0), place);
+  scene.settings().pace = &pace;
+  int without = 0;
+  for (int k = 0; k < 2 + limits::budget_none_hold_frames + 3; ++k) {
+    const sim::Picture picture = scene.draw(poses.front());
+    without += picture.report.availability.mode == Mode::removed ? 1 : 0;
+    if (pace.budget().counters.given_up > 0) {
+      EXPECT_EQ(picture.report.availability.mode, Mode::removed);
+      EXPECT_EQ(picture.report.bound_px, 0);
+      break;
+    }
+  }
+  EXPECT_EQ(pace.budget().counters.given_up, 1U);
+  EXPECT_GE(without, limits::budget_none_hold_frames);
+}
+
+/// A monitor that has nothing to do changes no bit of the ranges and the colours.
+TEST(LateFrames, in_time_are_the_frames_without_a_monitor) {
+  const Land land(spires_m);
+  land.add_tile(46, 8);
+  StallingClock clock;
+  FramePace pace({limits::default_deadline_ns, 1.0, limits::budget_most_px}, clock);
+  Scene scene(land, options_of(1.0), place);
+  for (const Pose& pose : poses) {
+    scene.settings().pace = nullptr;
+    const sim::Picture without = scene.draw(pose);
+    scene.settings().pace = &pace;
+    const sim::Picture with = scene.draw(pose);
+    EXPECT_EQ(with.rgb, without.rgb);
+    ASSERT_EQ(with.range_m.size(), without.range_m.size());
+    for (std::size_t k = 0; k < with.range_m.size(); ++k) {
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(with.range_m[k]),
+                std::bit_cast<std::uint32_t>(without.range_m[k]));
+    }
+  }
+}
 
 }  // namespace
 }  // namespace ridgeline::test
