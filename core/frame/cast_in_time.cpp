@@ -5,7 +5,11 @@
 namespace ridgeline {
 namespace {
 
-constexpr std::int64_t whole_plan = 1000;  ///< thousandths
+/// A plan in thousandths of that of the reference picture: most of it goes by the tiles.
+std::int64_t plan_of(std::int64_t pixels) {
+  constexpr std::int64_t reference_pixels = 1024 * 800;
+  return 100 + 900 * pixels / reference_pixels;
+}
 
 std::span<const RayTile> tiles_of(const FrameTables& tables, int first, int count) {
   return std::span<const RayTile>(tables.tiles.tiles)
@@ -62,8 +66,8 @@ void PacedCast::plan(const TileCut& cut) {
   rays_left_ = plan_.rays;
   report_.rays = static_cast<int>(rays_cast_ + rays_left_);
   report_.shared_px = std::max(report_.shared_px, plan_.shared_px);
-  report_.work.plans +=
-      whole_plan * (report_.camera.height_px - cut.from_px) / report_.camera.height_px;
+  report_.work.plans += plan_of(static_cast<std::int64_t>(report_.camera.width_px) *
+                                (report_.camera.height_px - cut.from_px));
 }
 
 FrameWork PacedCast::left() const {
@@ -87,8 +91,14 @@ bool PacedCast::can_coarsen() const {
                           .tiles[static_cast<std::size_t>(
                               kept_tiles_ + std::min(rows_cast_, plan_.rows - 1) * plan_.columns)]
                           .y();
-  return rays_left_ > 0 && !scene_.terrain.lattice().polar() &&
-         report_.camera.height_px - from_px >= 4 * cut_ring_px;
+  const int height_px = report_.camera.height_px - from_px;
+  FrameWork rays, plan;
+  rays.rays = rays.shaded = rays_left_;
+  plan.plans = plan_of(static_cast<std::int64_t>(report_.camera.width_px) * height_px);
+  // Less than two plans' worth of rays is not worth another plan.
+  const bool worth_it =
+      nominal_ns(rays, pace_.plan().detail) > 2 * nominal_ns(plan, pace_.plan().detail);
+  return worth_it && !scene_.terrain.lattice().polar() && height_px >= 4 * cut_ring_px;
 }
 
 void PacedCast::coarsen() {
