@@ -48,7 +48,7 @@ class Monitor : public testing::Test {
 };
 
 TEST_F(Monitor, a_fast_machine_reaches_the_configured_bound_and_stays_there) {
-  const Json json = report({"--from", "10", "--to", "14", "--monitor", "work", "--cost-scale",
+  const Json json = report({"--from", "10", "--to", "11.5", "--monitor", "work", "--cost-scale",
                             std::to_string(0.6 * 33.3 / full_frame_ms("1"))});
   for (const Json& frame : json["frames"]) {
     EXPECT_EQ(frame["budget"]["step"], 0);
@@ -64,9 +64,9 @@ TEST_F(Monitor, machines_too_slow_keep_the_deadline_with_sound_frames) {
   const double full_ms = full_frame_ms("0.5");
   for (const double times : {1.4, 3.0}) {
     const std::string dump = folder().file("slow" + std::to_string(times));
-    const Json json =
-        report({"--from", "10", "--to", "16", "--error", "0.5", "--monitor", "work", "--cost-scale",
-                std::to_string(times * 33.333 / full_ms), "--dump", dump, "--dump-every", "15"});
+    const Json json = report({"--from", "10", "--to", "13.2", "--error", "0.5", "--monitor", "work",
+                              "--cost-scale", std::to_string(times * 33.333 / full_ms), "--dump",
+                              dump, "--dump-every", "15"});
     int late = 0, counted = 0, worse = 0;
     for (const Json& frame : json["frames"]) {
       if (frame["index"].get<int>() < 30) continue;
@@ -80,7 +80,7 @@ TEST_F(Monitor, machines_too_slow_keep_the_deadline_with_sound_frames) {
         EXPECT_NE(all.find("bound_exceeded"), std::string::npos) << all;
       }
     }
-    EXPECT_GE(counted, 150);
+    EXPECT_GE(counted, 65);
     EXPECT_LE(late, counted / 100) << times;
     EXPECT_GE(worse, counted * 9 / 10) << times;
     EXPECT_EQ(json["allocations_after_boot"], 0);
