@@ -24,7 +24,7 @@ class Monitor : public testing::Test {
   static std::vector<std::string> replay(const std::vector<std::string>& more) {
     std::vector<std::string> all{"replay",    folder().file("demo.log"),
                                  "--terrain", folder().path(),
-                                 "--size",    "128x100",
+                                 "--size",    "200x160",
                                  "--range",   "15000",
                                  "--rate",    "30"};
     all.insert(all.end(), more.begin(), more.end());
