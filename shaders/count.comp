@@ -3,7 +3,6 @@
 layout(local_size_x = 8) in;
 layout(binding = range_unit) uniform highp usampler2D range_texture;
 layout(std430, binding = counters_buffer) buffer Counters { uint counters[]; };
-layout(std430, binding = tiles_buffer) readonly buffer Tiles { ivec4 tile_list[]; };
 
 const float proven_sky = 1.5e30;  // as in ray_cast.frag
 const float unresolved = 2.0e30;
@@ -11,7 +10,7 @@ const float unresolved = 2.0e30;
 void main() {
   int index = int(gl_GlobalInvocationID.x);
   if (index >= window.w) return;
-  ivec4 tile = tile_list[index];
+  ivec4 tile = record_of(index);
   ivec2 rays = tile_rays(tile);
   uint followed = 0u, failed = 0u;
   for (int y = 0; y < rays.y; ++y) {

@@ -26,6 +26,7 @@ RL_CONST(nodes_unit, 3);
 RL_CONST(range_unit, 4);
 RL_CONST(text_unit, 5);
 RL_CONST(shaded_unit, 6);
+RL_CONST(tiles_unit, 7);
 
 // Bytes of the text layer; 0 is no text.
 RL_CONST(text_plate, 60);
@@ -40,10 +41,8 @@ RL_CONST(target_image, 0);
 RL_CONST(planes_buffer, 0);
 RL_CONST(slopes_buffer, 1);
 RL_CONST(counters_buffer, 2);
-RL_CONST(tiles_buffer, 3);
 
-// Vertex attributes.
-RL_CONST(tile_attribute, 0);
+RL_CONST(tile_list_width, 256);  // texels of a row of tile records
 
 // One frame: pose, window and ground map. Lengths in m; window coordinates in lattice posts, relative
 // to the post south-west of the eye; heights over the ellipsoid.

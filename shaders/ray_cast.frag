@@ -100,7 +100,7 @@ float near_hit(Course q, float bend, float ceiling, inout float t) {
     if (t > ray_origin.w || (height > ceiling && climb >= 0.0)) return sky;
     vec2 off = s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
-    vec2 ahead = off + sign(rate) * (5.0e-7 * abs(off));
+    vec2 ahead = off + sign(rate) * (5.0e-7 * abs(off) + 1.0e-12);  // from an edge, too
     vec2 low = near_edges.xz, high = near_edges.yw;
     if (any(lessThan(ahead, low - 1.0)) || any(greaterThanEqual(ahead, high + 1.0))) return sky;
     ivec2 cell = ivec2(greaterThanEqual(ahead, high)) - ivec2(lessThan(ahead, low));
@@ -186,7 +186,10 @@ float first_hit(Ray r, float start, int size) {
       t += hit;
       return shown(t, c.unknown);
     }
-    parent = (window.xy + cell) >> (size + 1);
+    // A larger node will hardly be clear where the ray leaves the cell close to its ground.
+    float left = gap.x + stretch * (gap.y + stretch * gap.z);
+    bool high = left > 3.0 * (abs(c.dx) + abs(c.dy));
+    parent = high ? (window.xy + cell) >> (size + 1) : parent;
     t += straight < exit ? straight : leave;
   }
   return unresolved;

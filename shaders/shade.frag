@@ -9,18 +9,11 @@ layout(location = 0) out vec4 colour;
 #define shading 0
 #endif
 
-const vec3 horizon_blue = vec3(0.72, 0.82, 0.91);
-const vec3 zenith_blue = vec3(0.10, 0.30, 0.64);
 const vec3 plain_ground = vec3(0.36, 0.25, 0.14);  // the lower half of a frame without terrain
 const vec3 sea_blue = vec3(0.09, 0.27, 0.47);
 const vec3 line_dark = vec3(0.07, 0.06, 0.05);
 const float contour_m = 100.0;
 const float ambient = 0.36;
-
-vec3 sky_colour(float up) {
-  float s = clamp(up, 0.0, 1.0);
-  return mix(zenith_blue, horizon_blue, 1.0 / (1.0 + 7.0 * s));
-}
 
 float ramp(float low, float high, float value) {
   float slope = 1.0 / (high - low);  // of constants: no division is left

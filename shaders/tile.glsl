@@ -3,5 +3,6 @@
 ivec2 pair_of(int both) { return ivec2(both & 0xFFFF, both >> 16); }
 ivec2 tile_rays(ivec4 record) {
   ivec2 block = pair_of(record.w);
-  return (pair_of(record.z) + block - 1) / block;
+  vec2 blocks = (vec2(pair_of(record.z) + block) - 0.5) / vec2(block);  // no number is near a whole one
+  return ivec2(blocks);
 }

@@ -243,7 +243,7 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
   renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid),
                  shading_of(report));
   const auto pixels = static_cast<std::int64_t>(report.camera.width_px) * report.camera.height_px;
-  report.work.shaded = report.rays;
+  if (report.availability.mode == Mode::removed) report.work.shaded = 0;
   report.work.pixels = pixels;
   return report;
 }
@@ -263,6 +263,7 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
   if (counts.counters.unresolved > 0) {
     add_reason(report.availability, Reason::no_bound);
     report.bound_px = 0;
+    renderer.use_single_rays();
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
                    style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain);

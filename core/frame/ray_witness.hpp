@@ -5,11 +5,22 @@
 
 namespace ridgeline {
 
-/// The largest slope of ground, over the share of a turn that it leaves, for which blocks of a
-/// shape lose nothing where the vertical of the picture has a direction; 0 where no ground will do.
-/// `other`: of blocks in the tiles beside. `way`: unit vector in the picture. `reach_px`: of
-/// completeness. `loss_px`: what rounding moves.
-double steepest_for_block(const BlockShape& shape, const BlockShape& other, const glm::dvec2& way,
-                          double reach_px, double loss_px);
+/// Blocks of a tile, and those of the tiles beside it.
+struct BlockPair {
+  BlockShape own, other;
+  bool one_lattice = false;  ///< those beside go on where these end
+};
+
+/// What the picture asks of blocks.
+struct WitnessLimits {
+  double reach_px = 0;  ///< of completeness
+  double loss_px = 0;   ///< what rounding moves
+  double turn_rad = 0;  ///< the vertical may point up to so far beside `way`
+};
+
+/// The largest slope in the picture, up by across, for which blocks lose nothing where the vertical
+/// has the direction `way`, a unit vector; 0 where none will do.
+double steepest_for_block(const BlockPair& blocks, const glm::dvec2& way,
+                          const WitnessLimits& limits);
 
 }  // namespace ridgeline

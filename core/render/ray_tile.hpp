@@ -33,6 +33,13 @@ struct RayTile {
 };
 static_assert(sizeof(RayTile) == 16);
 
+/// The tiles of one picture. From number `ground` on no ground shows in them: they have one ray,
+/// and every pixel is sky.
+struct RayTiles {
+  std::span<const RayTile> tiles;
+  int ground = 0;
+};
+
 inline constexpr int ray_tile_px = 32;  ///< a side, but for tiles at the borders
 
 /// How one axis of a picture, from `first_px` on, is cut into tiles: a border of `ring` pixels at

@@ -4,13 +4,16 @@
 #include <bit>
 #include <limits>
 
+#include "core/render/text_bands.hpp"
 #include "shaders/count_comp.hpp"
 #include "shaders/present_frag.hpp"
 #include "shaders/ray_cast_frag.hpp"
 #include "shaders/shade_frag.hpp"
+#include "shaders/sky_frag.hpp"
 #include "shaders/sweep_comp.hpp"
 #include "shaders/tile_pixels_vert.hpp"
 #include "shaders/tile_rays_vert.hpp"
+#include "shaders/words_frag.hpp"
 
 namespace ridgeline {
 namespace {
@@ -122,7 +125,9 @@ Status Renderer::make_programs(ShaderLog log) {
   };
   for (const Drawn& entry :
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
-        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag}}) {
+        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag},
+        Drawn{&sky_, "sky", shader::tile_pixels_vert, shader::sky_frag},
+        Drawn{&words_, "words", shader::tile_pixels_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
     if (!made) return made;
@@ -163,40 +168,38 @@ Status Renderer::make_tiles() {
   bind_texture(shader::shaded_unit, shaded_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  const auto most = static_cast<std::size_t>(most_tiles(sizes_.width_px)) *
-                    static_cast<std::size_t>(most_tiles(sizes_.height_px));
-  constexpr GLenum vbo = GL_ARRAY_BUFFER;
-  Status s = take(make_buffer(vbo, most * sizeof(RayTile), GL_DYNAMIC_DRAW), tiles_);
-  if (s) s = take(make_buffer(vbo, most * sizeof(RayTile), GL_STATIC_DRAW), single_tiles_);
+  const int most = most_tiles(sizes_.width_px) * most_tiles(sizes_.height_px);
+  Status s = take(TileList::make(most), tiles_);
+  if (s) s = take(TileList::make(most), single_tiles_);
+  if (s) s = take(TileList::make(static_cast<int>(most_text_bands)), word_tiles_);
   if (!s) return s;
-  // Made at boot in what becomes the frames' own memory.
-  auto* records = static_cast<RayTile*>(
-      glMapBufferRange(vbo, 0, static_cast<GLsizeiptr>(most * sizeof(RayTile)), GL_MAP_WRITE_BIT));
-  if (records == nullptr) return Fault::gl_out_of_memory;
-  single_count_ = put_tiles({sizes_.width_px, 0}, {sizes_.height_px, 0}, std::span(records, most));
-  glUnmapBuffer(vbo);
-  for (const auto& [buffer, vertices] :
-       {std::pair(&tiles_, &tile_vertices_), std::pair(&single_tiles_, &single_vertices_)}) {
-    GLuint name = 0;
-    glGenVertexArrays(1, &name);
-    *vertices = VertexArray(name);
-    glBindVertexArray(name);
-    glBindBuffer(vbo, buffer->name());
-    glEnableVertexAttribArray(shader::tile_attribute);
-    glVertexAttribIPointer(shader::tile_attribute, 4, GL_INT, sizeof(RayTile), nullptr);
-    glVertexAttribDivisor(shader::tile_attribute, 1);
+  const TileAxis across{sizes_.width_px, 0};
+  std::array<RayTile, most_tiles(limits::max_image_px)> row{};
+  for (int y = 0; y < sizes_.height_px; y += ray_tile_px) {
+    const int height = std::min(ray_tile_px, sizes_.height_px - y);
+    const int count = put_tiles(across, {height, 0}, row);
+    for (RayTile& tile : row) {
+      tile.origin = RayTile::pair(tile.x(), y);
+      tile.rays = tile.origin;
+    }
+    single_tiles_.write(single_count_, std::span(row).first(static_cast<std::size_t>(count)));
+    single_count_ += count;
   }
-  glBindVertexArray(0);
   return {};
 }
 
-int Renderer::tile_count() const {
-  return tiles_shown_.empty() ? single_count_ : static_cast<int>(tiles_shown_.size());
+Renderer::TileRange Renderer::all_tiles() const {
+  const auto shown = static_cast<int>(tiles_shown_.tiles.size());
+  return {0, shown == 0 ? single_count_ : shown};
+}
+
+Renderer::TileRange Renderer::ground_tiles() const {
+  return {0, tiles_shown_.tiles.empty() ? single_count_ : tiles_shown_.ground};
 }
 
 void Renderer::write_frame_block(const FrameBlocks& blocks) {
   shader::FrameBlock frame = blocks.frame;
-  frame.window.w = tile_count();
+  frame.window.w = all_tiles().count;
   frame.ray_target = {1.0F / static_cast<float>(rays_width()),
                       1.0F / static_cast<float>(rays_height()), 0.0F, 0.0F};
   write_buffer(GL_UNIFORM_BUFFER, frame_block_, &frame, sizeof frame);
@@ -265,24 +268,24 @@ void Renderer::begin_rays(const FrameBlocks& blocks) {
 
 void Renderer::end_range() {
   bind_texture(shader::range_unit, range_);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::tiles_buffer, tile_buffer().name());
+  tile_list().bind();
   glUseProgram(count_.name());
-  glDispatchCompute(groups(tile_count(), 8), 1, 1);
+  glDispatchCompute(groups(all_tiles().count, 8), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                            std::span<const float> slopes, std::span<const RayTile> tiles) {
+                            std::span<const float> slopes, const RayTiles& tiles) {
   begin_terrain(blocks, planes, slopes, tiles);
-  draw_tiles(range_target_, ray_cast_, rays_width(), rays_height());
+  draw_tiles(range_target_, ray_cast_, all_tiles());
   end_range();
 }
 
 void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                             std::span<const float> slopes, std::span<const RayTile> tiles) {
+                             std::span<const float> slopes, const RayTiles& tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
-  write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
+  tiles_.write(0, tiles.tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
@@ -298,46 +301,30 @@ void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRec
   timer_.stamp(static_cast<int>(Pass::ray_cast));
 }
 
-void Renderer::cast_tiles(std::size_t first, std::size_t count) {
-  RL_ASSERT(first + count <= tiles_shown_.size());
-  // ES 3.1 draws instances from the first on: the records are read from a later place instead.
-  const auto read_from = [this](std::size_t tile) {
-    glBindVertexArray(tile_vertices_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
-    // An offset into the bound buffer goes by the type of a pointer.
-    const void* offset = reinterpret_cast<const void*>(tile * sizeof(RayTile));  // NOLINT
-    glVertexAttribIPointer(shader::tile_attribute, 4, GL_INT, sizeof(RayTile), offset);
-  };
-  read_from(first);
-  draw_into(range_target_, ray_cast_, rays_width(), rays_height(), static_cast<int>(count));
-  read_from(0);
-  glBindVertexArray(0);
+void Renderer::cast_tiles(int first, int count) const {
+  RL_ASSERT(first >= 0 && count >= 0 && first + count <= all_tiles().count);
+  draw_tiles(range_target_, ray_cast_, {first, count});
 }
 
-void Renderer::replace_tiles(const FrameBlocks& blocks, std::span<const RayTile> tiles) {
+void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {
   tiles_shown_ = tiles;
-  write_buffer(GL_ARRAY_BUFFER, tiles_, tiles.data(), tiles.size_bytes());
+  tiles_.write(0, tiles.tiles);
   write_frame_block(blocks);
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program, int width,
-                          int height) const {
-  glBindVertexArray(tiles_shown_.empty() ? single_vertices_.name() : tile_vertices_.name());
-  draw_into(target, program, width, height, tile_count());
-  glBindVertexArray(0);
-}
-
-void Renderer::draw_into(const Framebuffer& target, const Program& program, int width, int height,
-                         int count) {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
+                          const TileRange& tiles) const {
+  const bool whole = &target == &colour_target_;
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-  glViewport(0, 0, width, height);
+  glViewport(0, 0, whole ? sizes_.width_px : rays_width(),
+             whole ? sizes_.height_px : rays_height());
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
   glUseProgram(program.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+  tile_list().draw(tiles.first, tiles.count);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -347,6 +334,18 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.width_px, sizes_.height_px, GL_RED,
                   GL_UNSIGNED_BYTE, layer.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
+  word_count_ = static_cast<int>(bands.size());
+  word_tiles_.write(0, bands.view());
+}
+
+void Renderer::draw_words() const {
+  if (word_count_ == 0) return;
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glUseProgram(words_.name());
+  word_tiles_.draw(0, word_count_);
+  glDisable(GL_BLEND);
 }
 
 void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
@@ -358,10 +357,12 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style,
   bind_texture(shader::range_unit, range_);
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
-  draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], rays_width(),
-             rays_height());
+  const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
+  draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
-  draw_tiles(colour_target_, present_, sizes_.width_px, sizes_.height_px);
+  draw_tiles(colour_target_, present_, ground_tiles());
+  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
+  draw_words();
   timer_.stamp(pass_count);
   glFlush();
 }
@@ -382,7 +383,7 @@ void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scr
   };
   const RayTile all{0, 0, RayTile::pair(sizes_.width_px, sizes_.height_px), RayTile::pair(1, 1)};
   const std::span<const RayTile> whole(&all, 1);
-  for (const RayTile& tile : tiles_shown_.empty() ? whole : tiles_shown_) {
+  for (const RayTile& tile : tiles_shown_.tiles.empty() ? whole : tiles_shown_.tiles) {
     const BlockShape block = tile.shape();
     for (int y = 0; y < tile.height(); ++y) {
       for (int x = 0; x < tile.width(); ++x) {

@@ -6,7 +6,7 @@
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
-#include "core/render/ray_tile.hpp"
+#include "core/render/tile_list.hpp"
 #include "core/terrain/terrain_levels.hpp"
 
 namespace ridgeline {
@@ -63,13 +63,13 @@ class Renderer {
   /// Draws the ranges of one frame into the renderer's own target, a ray for each block of each
   /// tile. Owner: `tiles` is looked at again when the picture is shaded or read.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                    std::span<const float> slopes, std::span<const RayTile> tiles);
+                    std::span<const float> slopes, const RayTiles& tiles);
   /// The same in parts: all but the rays; then rays of tiles, in any order; end_range() at the end.
   void begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
-                     std::span<const float> slopes, std::span<const RayTile> tiles);
-  void cast_tiles(std::size_t first, std::size_t count);
+                     std::span<const float> slopes, const RayTiles& tiles);
+  void cast_tiles(int first, int count) const;
   /// Other tiles from here on; those drawn already stand where they stood.
-  void replace_tiles(const FrameBlocks& blocks, std::span<const RayTile> tiles);
+  void replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles);
   /// From here on every pixel has its own ray: for pictures without terrain, or by others.
   void use_single_rays() { tiles_shown_ = {}; }
   /// Shades the current range picture into the colour target.
@@ -98,32 +98,35 @@ class Renderer {
   Status make_storage();
   Status make_tiles();
   void begin_rays(const FrameBlocks& blocks);
-  /// Draws all tiles with a program into a target.
-  void draw_tiles(const Framebuffer& target, const Program& program, int width, int height) const;
-  /// Draws tiles whose records are bound.
-  static void draw_into(const Framebuffer& target, const Program& program, int width, int height,
-                        int count);
+  /// Tiles of the list in use, from `first` on.
+  struct TileRange {
+    int first = 0, count = 0;
+  };
+  /// Draws tiles with a program into a target.
+  void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles) const;
+  /// Draws the text layer over the colour target.
+  void draw_words() const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
-  [[nodiscard]] const Buffer& tile_buffer() const {
-    return tiles_shown_.empty() ? single_tiles_ : tiles_;
+  [[nodiscard]] const TileList& tile_list() const {
+    return tiles_shown_.tiles.empty() ? single_tiles_ : tiles_;
   }
-  [[nodiscard]] int tile_count() const;
+  [[nodiscard]] TileRange all_tiles() const;
+  [[nodiscard]] TileRange ground_tiles() const;  ///< all but those of plain sky
   void write_frame_block(const FrameBlocks& blocks);
   void bind_window() const;
   /// Where a pyramid level stands in its layer; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program sweep_, ray_cast_, count_, present_;
+  Program sweep_, ray_cast_, count_, present_, sky_, words_;
   std::array<Program, shading_count> shade_;
   Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
-  Buffer tiles_, single_tiles_;
-  std::span<const RayTile> tiles_shown_;  ///< the caller's; empty: single rays
-  int single_count_ = 0;
+  TileList tiles_, single_tiles_, word_tiles_;
+  RayTiles tiles_shown_;  ///< the caller's; empty: single rays
+  int single_count_ = 0, word_count_ = 0;
   Framebuffer range_target_, shaded_target_, colour_target_;
-  VertexArray tile_vertices_, single_vertices_;
   GpuTimer timer_;
 };
 

@@ -26,6 +26,7 @@ inline constexpr float void_offset_m = 100'000.0F;
 inline constexpr float void_threshold_m = -50'000.0F;
 
 inline constexpr int residual_parts = 4;  ///< a side, each with a residual and a slope of its own
+inline constexpr int ground_parts = 8;    ///< a side, each with what its own cells are like
 inline constexpr int region_margin = 2;   ///< cells of its level that a block looks beyond itself
 
 /// Unit of TerrainBlock::rests: half an ulp of the highest float below 16384 m is 127 of it. m
@@ -35,6 +36,12 @@ struct BlockId {
   int level = 0;
   std::int32_t column = 0, row = 0;
   friend bool operator==(const BlockId&, const BlockId&) = default;
+};
+
+/// The true surface of 8 x 8 cells of a block's level, through the finest posts.
+struct GroundPart {
+  float steepness = 0;                ///< largest slope
+  float lowest_m = 0, highest_m = 0;  ///< highest < lowest: nothing is known
 };
 
 /// What a block says about itself, for the bound and for the march.
@@ -49,6 +56,7 @@ struct BlockFacts {
   /// level round it; and over all of them.
   std::array<float, residual_parts * residual_parts> part_steepness{};
   float steepness = 0;
+  std::array<GroundPart, ground_parts * ground_parts> ground{};  ///< row-major from the south-west
   float lowest_m = 0, highest_m = 0;  ///< of posts, truth and floors; highest < lowest: none
   std::int32_t known_posts = 0;       ///< of the block's own posts
   std::int32_t void_posts = 0;

@@ -180,6 +180,8 @@ Outcome Session::open_renderer() {
   ray_tiles_.resize(tiles);
   tile_steepness_.resize(tiles);
   tile_shapes_.resize(tiles);
+  tile_looks_.resize(tiles);
+  block_bearing_ = std::make_unique<BlockBearing>();
   range_words_.resize(Renderer::scratch_words(image.width_px, image.height_px));
   rgba_.resize(4 * pixels);
   warm_up();
@@ -195,7 +197,8 @@ void Session::warm_up() {
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
-                          std::span(ray_tiles_).first(1));
+                          {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
+  std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
   for (const Shading shading :
        {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
@@ -220,7 +223,7 @@ Session::~Session() {
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
-  const FrameTables tables{planes_, slopes_, text_, {ray_tiles_, tile_steepness_, tile_shapes_}};
+  const FrameTables tables{planes_, slopes_, text_, ray_tiles()};
   double start_ms = 0, start_core_ms = 0;
   surface_->make_current();
   picture.problem = prepare(input);

@@ -111,6 +111,9 @@ class Session {
   Outcome open_renderer();
   void open_terrain(double far_floor);
   void warm_up();
+  [[nodiscard]] RayTileTables ray_tiles() {
+    return {ray_tiles_, tile_steepness_, tile_shapes_, tile_looks_, block_bearing_.get()};
+  }
   [[nodiscard]] MethodTerrain method_terrain();
 
   /// The state of the terrain window that a method was built from.
@@ -154,6 +157,8 @@ class Session {
   std::vector<RayTile> ray_tiles_;
   std::vector<float> tile_steepness_;
   std::vector<std::uint8_t> tile_shapes_;
+  std::vector<TileLook> tile_looks_;
+  std::unique_ptr<BlockBearing> block_bearing_;
   std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
   std::vector<Kept> methods_;

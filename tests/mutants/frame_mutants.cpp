@@ -11,6 +11,7 @@ constexpr std::string_view pipeline = "core/frame/frame_pipeline.cpp";
 constexpr std::string_view keeper = "core/frame/terrain_keeper.cpp";
 constexpr std::string_view ground = "core/frame/ground_below.cpp";
 constexpr std::string_view tiles = "core/frame/ray_tiles.cpp";
+constexpr std::string_view witness = "core/frame/ray_witness.cpp";
 constexpr std::string_view grid = "core/geo/polar_grid.cpp";
 
 constexpr Mutant table[] = {
@@ -65,6 +66,25 @@ constexpr Mutant table[] = {
     {"rays_in_larger_blocks", tiles, "steepness / grip * look.stretch + look.skew",
      "0.05 * steepness / grip * look.stretch", "blocks are good for ground twenty times as steep",
      "shared_blades"},
+    {"rays_shared_beside_voids", tiles, "unknown || facts.part_residual_m[k] > 0",
+     "facts.part_residual_m[k] > 0", "unknown ground is as good as known ground of its slope",
+     "shared_roads"},
+    {"slack_tripled", tiles, "shapes[largest_].radius_px() > sharing_.slack_px",
+     "shapes[largest_].radius_px() > 3 * sharing_.slack_px",
+     "a ray may be three times as far from its pixels as the bound allows", "shared_diagonal"},
+    {"reach_and_4_px", tiles, "std::min(sharing_.bound_px + neighbour_px, farthest_witness_px)",
+     "std::min(sharing_.bound_px + neighbour_px + 4, farthest_witness_px)",
+     "witnesses farther than completeness allows", "shared_combs"},
+    {"way_of_a_level_picture", tiles, "std::atan2(upright.way.y, upright.way.x)",
+     "0.5 * std::numbers::pi", "blocks bear what they would bear without roll",
+     "shared_combs_rolled"},
+    {"grip_ignored", tiles, "std::cos(look.down_rad) - steepness * std::sin(look.down_rad)", "1.0",
+     "ground seen from above is as good as ground seen along it", "shared_from_above"},
+    {"blocks_in_step_across_tiles", witness,
+     "value(sign * glm::dot(step, way) - other_up, off_axis(step) + other_beside)", "any",
+     "blocks of the tile beside stand where those of this tile would", "shared_combs_across"},
+    {"residual_shared", tiles, "facts.part_residual_m[k] > 0", "false",
+     "ground drawn with a residual is as good as exact ground", "shared_levels"},
 
     // --- uniforms ---
     {"radii_exchanged", blocks,

@@ -36,6 +36,30 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "A node is passed only if it stays under the ray but for the swell: what a pixel then "
        "misses "
        "it meets by less than 1.66e-6 rad. The rest as for ray_without_swell."},
+      {{"way_turned", "core/frame/ray_tiles.cpp", "std::atan2(upright.way.y, upright.way.x)",
+        "std::atan2(upright.way.x, -upright.way.y)",
+        "blocks are asked what they bear at a right angle to the vertical", "shared_combs_rolled"},
+       "A square block, its lattice and the pixels within reach are the same turned by a right "
+       "angle, so it bears the same. The pair that is used lies within 45 degrees of the vertical; "
+       "turned it is one that lies across, which bears less (test "
+       "HarmlessReasons.a_block_turned_by_a_right_angle_bears_no_more, without loss; with it a "
+       "turned pair may bear up to a fifth more than an upright one, but never more than an "
+       "upright "
+       "one without loss, and that is enough: loss_zero)."},
+      {{"loss_zero", "core/frame/ray_tiles.cpp", "sharing_.geometry_px", "0.0",
+        "what rounding moves is not counted between a pixel and its witness", "shared_combs"},
+       "What a witness c shows is the truth at some c' within geometry_px of c. Take p' = p + (c' "
+       "- "
+       "c), within geometry_px of p. The lemma of docs/error_bound.md, section 8, holds between p' "
+       "and c', which lie as p and c do, without any loss: z(c) = Z(c') <= Z(p') or >= Z(p'). That "
+       "is completeness as docs/adr/0014 promises it."},
+      {{"ring_of_one_pixel", "core/frame/ray_tiles.cpp",
+        "static_cast<int>(sharing.bound_px + neighbour_px) + 1", "1",
+        "pixels near the edge of the picture share rays as any others", "shared_combs_rolled"},
+       "Pixels beyond the edge count as drawn exactly (docs/adr/0014), so to a tile at the edge "
+       "the "
+       "outside is a tile in which every pixel has its own ray; and what a block finds beside a "
+       "block of its own shape it finds beside single pixels (docs/error_bound.md, section 8)."},
   };
   return all;
 }

@@ -64,6 +64,22 @@ void add_crest_scenes(std::vector<DesignedScene>& all) {
         {{46.5, 8.5, 2500}, {0, -8, 90}},
         {{46.5, 8.5, 2500}, {0, -8, 0}},
         {{46.5, 8.5, 5000}, {0, -20, 270}}});
+  // Two pixels, one over the other, share a ray half a pixel below the upper one. What coarse
+  // ground leaves out of this crest is more than that, and no other ray is within reach.
+  const DesignedLand low = fine("low_crest", [](double latitude_deg, double longitude_deg) {
+    const FinePost at = fine_post(latitude_deg, longitude_deg);
+    const auto away = static_cast<double>(std::abs(at.column - 624));
+    return 500 + (at.row == 771 ? 7.2 * std::clamp((45 - away) / 10, 0.0, 1.0) : 0.0);
+  });
+  all.push_back(
+      {"shared_levels",
+       "a crest that coarse levels flatten by more than half a pixel",
+       low,
+       options_of({.image = {512, 64, 10}, .range_km = 30, .error_px = 1.28, .gpu_mebibytes = 3}),
+       {{{46.5, 8.5, 1000}, {1, -1.8, 5}},
+        {{46.5, 8.5, 1100}, {1.5, -2.2, 5}},
+        {{46.5, 8.5, 1300}, {-1, -2.9, 6}}},
+       512 * 64});
 }
 
 void add_rough_scenes(std::vector<DesignedScene>& all) {

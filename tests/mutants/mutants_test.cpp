@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <glm/vec2.hpp>
+#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "config/limits.hpp"
+#include "core/frame/ray_witness.hpp"
 #include "core/geo/ground_map.hpp"
 #include "shaders/count_comp.hpp"
 #include "shaders/ray_cast_frag.hpp"
@@ -87,6 +91,15 @@ TEST_P(Unmutated, scene_is_drawn_and_sound) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Unmutated,
                          testing::ValuesIn(range_of(0, designed_scenes().size())), scene_name_of);
 
+/// What a mutant breaks in all of its scene, for docs/evidence/mutants.md.
+void append_row(const char* file, const Mutant& mutant, const SceneVerdict& verdict) {
+  std::ofstream table(file, std::ios::app);
+  table << "| " << mutant.name << " | " << mutant.scene << " | " << verdict.violations << " of "
+        << verdict.pixels << " |\n";
+  table.flush();
+  ASSERT_TRUE(table) << file << ": cannot be written";
+}
+
 class Mutated : public testing::TestWithParam<int> {};
 
 TEST_P(Mutated, is_caught) {
@@ -94,8 +107,11 @@ TEST_P(Mutated, is_caught) {
   const DesignedScene* scene = find_scene(mutant.scene);
   ASSERT_NE(scene, nullptr);
   set_active_mutant(GetParam());
-  const SceneVerdict verdict = judged(*scene, Thoroughness::first_violation);
+  const char* table = std::getenv("RL_MUTANT_TABLE");
+  const SceneVerdict verdict =
+      judged(*scene, table == nullptr ? Thoroughness::first_violation : Thoroughness::every_pixel);
   set_active_mutant(no_mutant);
+  if (table != nullptr) append_row(table, mutant, verdict);
   EXPECT_GT(verdict.violations, 0U)
       << mutant.breaks << ": not seen in " << verdict.pixels << " pixels of '" << mutant.scene
       << "', " << verdict.removed << " frames refused, bound at most " << verdict.largest_bound_px
@@ -144,6 +160,27 @@ TEST(HarmlessReasons, swell_is_less_than_1_7e_6_rad) {
   }
   EXPECT_LT(largest_m, 1.67e-6 * limits::max_range_m);
   EXPECT_GT(largest_m, 1.6e-6 * limits::max_range_m);
+}
+
+/// What harmless_mutants.cpp says of way_turned. Of the pairs the one along the vertical is used,
+/// so its turns go to 45 degrees on either side; the other one is its mirror image.
+TEST(HarmlessReasons, a_block_turned_by_a_right_angle_bears_no_more) {
+  double most = 0;
+  for (const BlockShape shape : {BlockShape{8, 8}, BlockShape{6, 6}, BlockShape{4, 4},
+                                 BlockShape{3, 3}, BlockShape{2, 2}, BlockShape{1, 2}}) {
+    for (const double reach_px : {1.46, 1.71, 2.31, 2.71, 3.71, 4.71, 6.71, 8.71}) {
+      if (shape.radius_px() > reach_px - 0.7) continue;
+      for (int k = -45; k <= 45; ++k) {
+        const double angle = k * std::numbers::pi / 180;
+        const glm::dvec2 way(std::sin(angle), std::cos(angle)), across(way.y, -way.x);
+        const double upright = steepest_for_block(shape, shape, way, reach_px, 0.0);
+        const double turned = steepest_for_block(shape, shape, across, reach_px, 0.0);
+        if (turned > 0) most = std::max(most, turned / std::max(upright, 1e-9));
+      }
+    }
+  }
+  EXPECT_LT(most, 1.001);
+  EXPECT_GT(most, 0.99);
 }
 
 }  // namespace

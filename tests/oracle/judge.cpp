@@ -356,23 +356,30 @@ Judge::Bracket Judge::bracket(const ImagePoint& point, const FirstHit& hit) cons
 bool Judge::is_complete_within(const ImagePoint& point, double radius_px) const {
   constexpr int rays = 16, rings = 6;
   double nearest_m = infinity, farthest_m = 0;
+  bool may_be_unknown = false;
   for (int ring = 0; ring < rings; ++ring) {
     for (int ray = 0; ray < rays; ++ray) {
       const double angle = 2 * pi * (ray + 0.5 * (ring % 2)) / rays;
       const double radius = std::ldexp(radius_px, -ring);
       const ImagePoint beside = point + radius * ImagePoint{std::cos(angle), std::sin(angle)};
-      const double distance_m = tracer_.first_hit(camera_.direction(beside)).distance_m;
-      nearest_m = std::min(nearest_m, distance_m);
-      farthest_m = std::max(farthest_m, distance_m);
+      const FirstHit hit = tracer_.first_hit(camera_.direction(beside));
+      nearest_m = std::min(nearest_m, hit.distance_m);
+      farthest_m = std::max(farthest_m, hit.distance_m);
+      may_be_unknown = may_be_unknown || hit.may_be_unknown;
     }
   }
   bool below = false, above = false;
   for_each_pixel_around(point, [&](int u, int v) {
     const bool is_inside = u >= 0 && v >= 0 && u < frame_.width && v < frame_.height;
     if (!is_inside && strict_edge_) return false;
-    const double z = is_inside && !std::isnan(frame_.z(u, v))
-                         ? frame_.z(u, v)
-                         : tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5})).distance_m;
+    double z = is_inside ? frame_.z(u, v) : infinity;
+    if (!is_inside || std::isnan(z)) {
+      const FirstHit truth = tracer_.first_hit(camera_.direction({u + 0.5, v + 0.5}));
+      if (is_inside && !may_be_unknown && !truth.may_be_unknown) return false;
+      below = below || (is_inside && may_be_unknown);
+      above = above || (is_inside && may_be_unknown);
+      z = truth.distance_m;
+    }
     below = below || z * (1 - eta) <= farthest_m;
     above = above || z * (1 + eta) >= nearest_m;
     return below && above;

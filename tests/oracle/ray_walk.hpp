@@ -279,7 +279,7 @@ class RayWalk {
       const float corner[4] = {tile_->at(row, column), tile_->at(row, column + 1),
                                tile_->at(row + 1, column), tile_->at(row + 1, column + 1)};
       if (std::isnan(corner[0] + corner[1] + corner[2] + corner[3])) {
-        if (!visitor_.wants_unknown()) continue;
+        if (!visitor_.wants_unknown() || is_left_at_once(piece)) continue;
         const Block& block = levels_->front().at(row / block_cells, column / block_cells);
         visitor_.unknown(static_cast<double>(block.must_below_m), may_below_m_, piece);
       } else if (visitor_.known(corner, row, column, piece)) {
@@ -287,6 +287,13 @@ class RayWalk {
       }
     }
     return false;
+  }
+
+  /// A piece so short and so near the eye that it only says on which side of a line rounding put
+  /// an eye that stands on it.
+  [[nodiscard]] bool is_left_at_once(const Piece& piece) const {
+    constexpr double rounding_m = 2e-6;  // twice what a stretch may be off by
+    return tracer_.eye_on_a_line() && piece.stretch->distance_m(piece.to) < rounding_m;
   }
 
   /// What brings a longitude to the turn closest to a tile.
@@ -316,8 +323,8 @@ class RayWalk {
 
   /// Ground without a tile: unknown cells with the steps of the nearest tile.
   void walk_outside(double from, double to) {
-    if (!visitor_.wants_unknown()) return;
     const Piece piece{&stretch_, &height_, nullptr, nullptr, from, to};
+    if (!visitor_.wants_unknown() || is_left_at_once(piece)) return;
     if (piece.lowest_m() >= std::max(may_below_m_, tracer_.terrain().highest_post_m())) return;
     const double middle = 0.5 * (from + to);
     const Tile* nearest = nearest_tile(stretch_.lat_deg.at(middle), stretch_.lon_deg.at(middle));

@@ -191,6 +191,14 @@ struct ClearanceVisitor {
   }
 };
 
+/// What counts as one place, in degrees: 1e-8 m, a few roundings of a coordinate in double.
+constexpr double line_deg = 1e-13;
+
+bool is_on_a_line(double place_deg, double first_deg, double step_deg) {
+  const double line = first_deg + std::round((place_deg - first_deg) / step_deg) * step_deg;
+  return std::abs(place_deg - line) <= line_deg;
+}
+
 }  // namespace
 
 double shared_edge(double degrees) {
@@ -207,6 +215,15 @@ Tracer::Tracer(const Terrain& terrain, const Geodetic& eye, double range_m, Walk
     const Tile& tile = entry.tile;
     views_.push_back({&entry, shared_edge(tile.south_deg), shared_edge(tile.north_deg()),
                       shared_edge(tile.west_deg), shared_edge(tile.east_deg())});
+    const View& view = views_.back();
+    const double turned =
+        eye.lon_deg + 360 * std::ceil((view.west_deg - line_deg - eye.lon_deg) / 360);
+    const bool inside = eye.lat_deg >= view.south_deg - line_deg &&
+                        eye.lat_deg <= view.north_deg + line_deg &&
+                        turned <= view.east_deg + line_deg;
+    eye_on_a_line_ = eye_on_a_line_ ||
+                     (inside && (is_on_a_line(eye.lat_deg, view.south_deg, tile.lat_step_deg) ||
+                                 is_on_a_line(turned, view.west_deg, tile.lon_step_deg)));
   }
 }
 

@@ -33,6 +33,8 @@ enum class Walk { accelerated, every_cell };
 /// before it and from 1 mm behind it.
 /// A location in two overlapping tiles belongs to the finer one. Where there is no tile the cells
 /// are unknown, with the steps of the nearest tile.
+/// A ray that leaves a cell where it begins has not passed over it: from an eye on a line of posts
+/// what rounding puts on the far side of the line does not count as unknown ground.
 /// Error:  the surface is met within 1e-8 m of its height, and 1.2e-12 rad (1e-9 px of a usual
 ///         picture), as the same definition says in long double; where a ray grazes a hill that
 ///         closely the hit may be on the next one (test
@@ -66,6 +68,8 @@ class Tracer {
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
   [[nodiscard]] const std::vector<View>& views() const { return views_; }
   [[nodiscard]] double eye_lon_deg() const { return eye_lon_deg_; }
+  /// The eye stands on a border between cells, to the rounding of its coordinates.
+  [[nodiscard]] bool eye_on_a_line() const { return eye_on_a_line_; }
   [[nodiscard]] Walk walk() const { return walk_; }
 
  private:
@@ -74,6 +78,7 @@ class Tracer {
   double eye_lon_deg_;
   double range_m_;
   Walk walk_;
+  bool eye_on_a_line_ = false;
   std::vector<View> views_;
 };
 

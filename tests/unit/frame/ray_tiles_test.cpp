@@ -169,9 +169,8 @@ int bare_pixels_at(double share, unsigned seed) {
     const glm::dvec2 way{std::cos(angle), std::sin(angle)};
     const double radius_px = std::max(tiles.own.radius_px(), tiles.other.radius_px());
     const double reach_px = 0.7071 + radius_px + 0.25 * whole(8);
-    const double steepest =
-        std::min(steepest_for_block(tiles.own, tiles.own, way, reach_px, 0.0),
-                 steepest_for_block(tiles.own, tiles.other, way, reach_px, 0.0));
+    const double steepest = std::min(steepest_for_block({tiles.own, tiles.own}, way, {reach_px}),
+                                     steepest_for_block({tiles.own, tiles.other}, way, {reach_px}));
     if (steepest <= 0) continue;
     const Crests ground(share * std::min(steepest, 20.0), random);
     bare += bare_pixels(tiles, ground, way, reach_px);
@@ -191,20 +190,20 @@ TEST(SteepestForBlock, single_pixels_allow_any_slope) {
   for (int k = 0; k < 32; ++k) {
     const double angle = std::numbers::pi * k / 32;
     const glm::dvec2 way{std::cos(angle), std::sin(angle)};
-    const double alone = steepest_for_block({1, 1}, {1, 1}, way, 1.7071, 0.0);
+    const double alone = steepest_for_block({{1, 1}, {1, 1}}, way, {1.7071, 0.0});
     EXPECT_GE(alone, 0.0);
     EXPECT_LE(alone, most);
     // What rounding may move is never a gain, and neither is a shorter reach.
-    const double wide = steepest_for_block({2, 2}, {2, 2}, way, 2.7071, 0.0);
-    EXPECT_LE(steepest_for_block({2, 2}, {2, 2}, way, 2.7071, 0.1), wide);
-    EXPECT_LE(steepest_for_block({2, 2}, {2, 2}, way, 1.7071, 0.0), wide);
-    EXPECT_LE(steepest_for_block({2, 2}, {4, 4}, way, 2.7071, 0.0), wide);
+    const double wide = steepest_for_block({{2, 2}, {2, 2}}, way, {2.7071, 0.0});
+    EXPECT_LE(steepest_for_block({{2, 2}, {2, 2}}, way, {2.7071, 0.1}), wide);
+    EXPECT_LE(steepest_for_block({{2, 2}, {2, 2}}, way, {1.7071, 0.0}), wide);
+    EXPECT_LE(steepest_for_block({{2, 2}, {4, 4}}, way, {2.7071, 0.0}), wide);
   }
 }
 
 TEST(SteepestForBlock, no_ground_will_do_where_no_ray_is_in_reach) {
-  EXPECT_EQ(steepest_for_block({8, 8}, {8, 8}, {0, 1}, 0.9, 0.0), 0.0);
-  EXPECT_EQ(steepest_for_block({2, 2}, {2, 2}, {0, 1}, 1.7071, 5.0), 0.0);
+  EXPECT_EQ(steepest_for_block({{8, 8}, {8, 8}}, {0, 1}, {0.9, 0.0}), 0.0);
+  EXPECT_EQ(steepest_for_block({{2, 2}, {2, 2}}, {0, 1}, {1.7071, 5.0}), 0.0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/frame/ray_tiles.hpp"
@@ -72,20 +73,37 @@ TEST(TileCut, leaves_every_pixel_one_tile_and_every_tile_a_place) {
   }
 }
 
+/// What a block bears in the middle of a direction's bin, as the plan asks it.
+double bears(const BlockPair& blocks, int bin, double reach_px) {
+  const double angle = (bin + 0.5) * std::numbers::pi / 64;
+  return steepest_for_block(blocks, {std::cos(angle), std::sin(angle)}, {reach_px, 0.05, 0.003});
+}
+
 TEST(TileCut, single_pixels_beside_a_block_bear_what_any_other_shape_there_bears) {
   for (const BlockShape shape : {BlockShape{2, 2}, BlockShape{1, 2}, BlockShape{4, 4}}) {
     for (const BlockShape other : {BlockShape{1, 2}, BlockShape{2, 2}, BlockShape{3, 3}}) {
-      for (double angle = 0; angle < 3.2; angle += 0.1) {
-        const glm::dvec2 way(std::cos(angle), std::sin(angle));
+      for (int bin = 0; bin < 64; ++bin) {
         for (const double reach_px : {1.7, 2.7, 4.7}) {
-          const double beside_other = steepest_for_block(shape, other, way, reach_px, 0.05);
-          EXPECT_GE(steepest_for_block(shape, {1, 1}, way, reach_px, 0.05), beside_other);
-          EXPECT_GE(steepest_for_block(shape, other, way, 8.7, 0.05), beside_other)
+          const double beside_other = bears({shape, other, false}, bin, reach_px);
+          EXPECT_GE(bears({shape, {1, 1}, false}, bin, reach_px), beside_other);
+          EXPECT_GE(bears({shape, other, false}, bin, 8.7), beside_other)
               << "a larger reach takes nothing away";
         }
       }
     }
   }
+}
+
+/// Why a frame that may be cut asks for both: its own lattice going on can be the better neighbour.
+TEST(TileCut, single_pixels_beside_a_block_may_bear_less_than_its_own_lattice_going_on) {
+  int worse = 0, worse_at_one_pixel = 0;
+  for (int bin = 0; bin < 64; ++bin) {
+    const BlockPair going_on{{1, 2}, {1, 2}, true}, cut{{1, 2}, {1, 1}, false};
+    worse += bears(cut, bin, 4.7) < 0.5 * bears(going_on, bin, 4.7) ? 1 : 0;
+    worse_at_one_pixel += bears(cut, bin, 1.7) < 0.99 * bears(going_on, bin, 1.7) ? 1 : 0;
+  }
+  EXPECT_GT(worse, 0);
+  EXPECT_EQ(worse_at_one_pixel, 0);
 }
 
 }  // namespace

@@ -56,6 +56,34 @@ TEST(Unknown, a_void_behind_the_first_hit_does_not_count) {
   EXPECT_FALSE(hit.may_be_unknown);
 }
 
+/// An eye on the border of the data looks round: what lies behind it is not before it, on whichever
+/// side of the line rounding puts the beginning of a ray.
+TEST(Unknown, a_ray_does_not_pass_over_the_cell_that_it_leaves_where_it_begins) {
+  int seen = 0;
+  for (int south_deg = -59; south_deg < 59; south_deg += 7) {
+    const Terrain terrain(
+        {scenes::tile(south_deg, 179, 120, 120, [](double, double) { return 100.0; })}, Geoid());
+    for (const double column : {17.0, 40.3, 100.7}) {
+      const Geodetic eye{south_deg + 1.0, 179 + column / 120, 300};
+      const Tracer tracer(terrain, eye, 20000);
+      const LevelFrame level = level_frame(eye.lat_deg, eye.lon_deg);
+      for (double heading_deg = 5; heading_deg < 360; heading_deg += 13.7) {
+        const bool out = std::cos(heading_deg * degree_rad) > 0;
+        const FirstHit hit = tracer.first_hit(camera_axes(level, 0, -3, heading_deg).forward);
+        ASSERT_EQ(hit.may_be_unknown, out) << south_deg << ' ' << column << ' ' << heading_deg;
+        ++seen;
+      }
+    }
+  }
+  EXPECT_GT(seen, 1000);
+  // A centimetre beyond the border it does pass over unknown ground.
+  const Terrain terrain({scenes::tile(46, 8, 120, 120, [](double, double) { return 100.0; })},
+                        Geoid());
+  const Geodetic eye{47.0 + 1e-7, 8.3, 300};
+  const CameraAxes south = camera_axes(level_frame(eye.lat_deg, eye.lon_deg), 0, -3, 180);
+  EXPECT_TRUE(Tracer(terrain, eye, 20000).first_hit(south.forward).may_be_unknown);
+}
+
 TEST(Unknown, the_threshold_is_that_of_the_alignment_that_asks_least) {
   const double beside = 0.4 * cell_deg;
   for (const int near : {20, 64, 126}) {
