@@ -46,6 +46,9 @@ int BlockWorker::room() {
     const std::chrono::duration<double, std::milli> all = Clock::now() - take_start_;
     last_take_ = {all.count() - wait_ms_, wait_ms_};
     taking_ = false;
+    taken_rounds_.push_back(in_round_);
+    in_round_ = 0;
+    ++round_;
   }
   const std::lock_guard lock(queue_mutex_);
   return static_cast<int>(slots - 1 - (ordered_ - taken_));
@@ -69,14 +72,30 @@ const TerrainBlock* BlockWorker::take() {
   }
   std::unique_lock lock(queue_mutex_);
   if (taken_ == ordered_) return nullptr;
-  if (settings_.arrival == Arrival::in_step && built_ == taken_) {
+  if (settings_.arrival == Arrival::as_recorded &&
+      (round_ >= expected_rounds_.size() || in_round_ >= expected_rounds_[round_])) {
+    return nullptr;
+  }
+  if (settings_.arrival != Arrival::as_ready && built_ == taken_) {
     const Clock::time_point before = Clock::now();
     done_.wait(lock, [this] { return built_ > taken_; });
     wait_ms_ += std::chrono::duration<double, std::milli>(Clock::now() - before).count();
   }
   if (built_ == taken_) return nullptr;
+  ++in_round_;
   // The slot taken before this one is free from now on; this one stays the caller's.
   return &blocks_[taken_++ % slots];
+}
+
+BlockWorker::Rounds BlockWorker::taken_in_rounds() {
+  const Rounds rounds = taken_rounds_;
+  taken_rounds_.clear();
+  return rounds;
+}
+
+void BlockWorker::expect(const Rounds& rounds) {
+  expected_rounds_ = rounds;
+  round_ = 0;
 }
 
 void BlockWorker::focus(const GeoBox& box) {

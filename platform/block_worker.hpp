@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/limits.hpp"
+#include "core/base/fixed_vector.hpp"
 #include "core/terrain/block_port.hpp"
 #include "core/terrain/terrain_levels.hpp"
 #include "platform/terrain_folder.hpp"
@@ -20,8 +21,9 @@ namespace ridgeline {
 class BlockWorker final : public BlockPort {
  public:
   enum class Arrival : std::uint8_t {
-    in_step,   ///< take() waits for what was ordered: deterministic runs
-    as_ready,  ///< take() never waits: live use
+    in_step,      ///< take() waits for what was ordered: deterministic runs
+    as_ready,     ///< take() never waits: live use
+    as_recorded,  ///< take() hands out, and waits for, as many as expect() says
   };
   struct Settings {
     PostLattice lattice;
@@ -51,6 +53,14 @@ class BlockWorker final : public BlockPort {
   void focus(const GeoBox& box) override;
   const TerrainBlock* build(const BlockOrder& order) override;
   [[nodiscard]] int refused_count() const override;
+
+  /// Rounds of take() that one frame may have: two where the chart changes.
+  static constexpr std::size_t rounds_a_frame = 4;
+  using Rounds = FixedVector<int, rounds_a_frame>;
+  /// Blocks handed out in each round since the last call.
+  Rounds taken_in_rounds();
+  /// How many blocks the next rounds are to hand out (Arrival::as_recorded); none after those.
+  void expect(const Rounds& rounds);
 
   /// What taking blocks cost the frame that took them.
   struct TakeTimes {
@@ -101,6 +111,9 @@ class BlockWorker final : public BlockPort {
   bool taking_ = false;
   double wait_ms_ = 0;
   TakeTimes last_take_;
+  Rounds taken_rounds_, expected_rounds_;
+  std::size_t round_ = 0;  ///< of the expected ones
+  int in_round_ = 0;       ///< blocks taken
 
   std::thread thread_;
 };

@@ -3,6 +3,12 @@
 layout(binding = range_unit) uniform highp usampler2D range_texture;
 layout(location = 0) out vec4 colour;
 
+// How much is made of the ground (Shading in core/render/renderer.hpp): 0 everything, 1 without
+// lines, 2 each cell lit by itself, 3 none is drawn.
+#ifndef shading
+#define shading 0
+#endif
+
 const vec3 plain_ground = vec3(0.36, 0.25, 0.14);  // the lower half of a frame without terrain
 const vec3 sea_blue = vec3(0.09, 0.27, 0.47);
 const vec3 line_dark = vec3(0.07, 0.06, 0.05);
@@ -45,17 +51,21 @@ Relief relief_at(vec2 at) {
   float unit = 1.0 / float(1 << level);
   vec2 f = (at - vec2(level_low(cell, level))) * unit;
   ivec2 p = level_texel(cell, level);
+  vec4 here = four_posts(p, level);
+  vec2 west = here.wx, east = here.zy, south = here.wz, north = here.xy;
+#if shading == 2
+  vec2 x = east - west, y = north - south;
+#else
   bvec2 upper = greaterThan(f, vec2(0.5));
   ivec2 side = ivec2(upper) * 2 - 1;
-  vec4 here = four_posts(p, level);
   vec4 beside = four_posts(p + ivec2(side.x, 0), level);
   vec4 above = four_posts(p + ivec2(0, side.y), level);
-  vec2 west = here.wx, east = here.zy, south = here.wz, north = here.xy;
   vec2 share = abs(f - 0.5);
   vec2 x = blended(east - west, upper.x ? east : west, upper.x ? beside.zy : beside.wx,
                    float(side.x), share.x);
   vec2 y = blended(north - south, upper.y ? north : south, upper.y ? above.xy : above.wz,
                    float(side.y), share.y);
+#endif
   Relief r;
   r.gradient = vec2(mix(x.x, x.y, f.y), mix(y.x, y.y, f.x)) * unit;
   vec2 low = min(south, north), high = max(south, north);
@@ -83,6 +93,10 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
   vec3 normal = vec3(-slope, 1.0);  // not of unit length
   float size2 = 1.0 + dot(slope, slope);
 
+  bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
+  float light = ambient + 0.72 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
+  vec3 ground = sea ? sea_blue : height_tint(height) * light;
+#if shading == 0
   // Change of east, north and height on the tangent plane when the ray moves by one pixel, squared.
   vec3 sight = vec3(r.azimuth * r.along, r.up);
   float facing = 1.0 / min(dot(normal, sight), -0.02);
@@ -96,12 +110,10 @@ vec3 ground_colour(vec3 direction, Ray r, float t) {
              (per_pixel2 * float(block.x * block.y));
   vec3 cover = line_cover(offset, px2);
 
-  bool sea = abs(height) < post_step.w && relief.roughness <= post_step.z;
   cover.z *= sea ? 0.0 : ramp(1.00003, 1.0004, size2);  // flat ground has no contours
-  float light = ambient + 0.72 * clamp(dot(normal, sun.xyz) * inversesqrt(size2), 0.0, 1.0);
-  vec3 ground = sea ? sea_blue : height_tint(height) * light;
   ground = mix(ground, line_dark, 0.42 * cover.z);
   ground = mix(ground, sea ? vec3(0.55, 0.72, 0.86) : line_dark, 0.30 * max(cover.x, cover.y));
+#endif
   float far = t * line.w;
   float clear = 1.0 - far;  // squared, so that the end of the range is not cut out of the sky
   return mix(sky_colour(r.up), ground, clear * clear * (1.0 + 1.2 * far));
@@ -119,6 +131,9 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   vec2 pixel = ray_pixel(texel);
   vec3 direction = pixel_ray(pixel);
+#if shading == 3
+  vec3 seen = plain_colour(direction, pixel + 0.5);
+#else
   Ray r = make_ray(direction);
   float t = uintBitsToFloat(texelFetch(range_texture, texel, 0).r);
   vec3 seen = ground_colour(direction, r, min(abs(t), ray_origin.w));
@@ -128,5 +143,6 @@ void main() {
   seen = t < 0.0 ? unknown : seen;
   seen = abs(t) >= sky ? sky_colour(r.up) : seen;
   seen = legend.x < 0.5 ? plain_colour(direction, pixel + 0.5) : seen;
+#endif
   colour = vec4(seen, 1.0);
 }

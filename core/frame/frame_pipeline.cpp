@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frame/cast_in_time.hpp"
 #include "core/frame/level_error.hpp"
 #include "core/frame/picture.hpp"
 
@@ -103,14 +104,6 @@ PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, cons
   return grid;
 }
 
-/// What of the promise is left for rays that stand for several pixels.
-RaySharing sharing_of(const FrameSettings& settings, const FrameReport& report) {
-  constexpr double rounding_px = 1e-3;  // of the middle of a block
-  const double left_px = report.bound_px - report.budget.smallest_px() - rounding_px;
-  return {report.range_m, left_px, report.bound_px, report.budget.geometry_px,
-          settings.cast_every_pixel};
-}
-
 /// The frame of a method that promises nothing: no budget, no grid, the whole range.
 FrameReport draw_instead(const FrameSettings& settings, FrameReport report,
                          const TerrainKeeper& terrain, Renderer& renderer, FrameBlocks& blocks) {
@@ -135,12 +128,31 @@ FrameReport removed(FrameReport report, Reason reason) {
   return report;
 }
 
+/// Says what the picture lacks for the sake of time.
+void tell_plan(const FrameSettings& settings, const FramePlan& plan, FrameReport& report) {
+  if (report.availability.mode == Mode::removed) {
+    report.bound_px = 0;
+    report.rays = 0;
+    return;
+  }
+  if (plan.detail != ShadeDetail::full) add_reason(report.availability, Reason::detail_shed);
+  if (plan.error_px > settings.error_px) add_reason(report.availability, Reason::bound_for_time);
+  if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
+}
+
+Shading shading_of(const FrameReport& report) {
+  const bool removed = report.availability.mode == Mode::removed;
+  return removed ? Shading::plain : static_cast<Shading>(report.detail);
+}
+
 FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
                          TerrainKeeper& terrain, int refused_tiles, const FrameTables& tables,
                          Renderer& renderer, FrameBlocks& blocks, bool& attitude_valid) {
   FrameReport report;
   report.time_ns = input.time_ns;
   report.availability = input.availability;
+  report.work.frames = 1;
+  report.work.bus_frames = input.bus_frames;
 
   // Camera first: a frame without terrain still shows the attitude.
   const auto camera_made = camera(input.attitude, settings.image);
@@ -162,6 +174,11 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   // Terrain window.
   terrain.follow(input.eye, renderer);
   report.window = terrain.summary();
+  report.work.blocks = report.window.blocks_arrived;
+  if (settings.pace != nullptr) {
+    settings.pace->reached(FrameStage::terrain, report.work, {}, false);
+    if (!settings.pace->plan().terrain) return removed(report, Reason::overload);
+  }
   report.range_m = terrain.covered_range_m(input.eye, settings.range_m);
   if (report.range_m < limits::min_range_m) {
     return removed(report,
@@ -200,13 +217,9 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   report.planes = grid.used ? grid.plane_count : 0;
   report.rows = grid.used ? grid.row_count : 0;
   if (!grid.used) report.nodes = 0;
-  const RayTilePlan rays = plan_ray_tiles(terrain, report.local, report.camera,
-                                          sharing_of(settings, report), tables.tiles);
-  report.rays = rays.rays;
-  report.shared_px = rays.shared_px;
-  renderer.draw_terrain(
-      blocks, tables.planes.first(report.planes), tables.slopes.first(report.rows),
-      {tables.tiles.tiles.first(static_cast<std::size_t>(rays.tiles)), rays.ground_tiles});
+  if (!cast_in_time({settings, terrain, tables, blocks, renderer}, report)) {
+    return removed(report, Reason::overload);
+  }
   return report;
 }
 
@@ -217,12 +230,28 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
                        Renderer& renderer) {
   FrameBlocks blocks{};
   bool attitude_valid = input.attitude_valid;
-  FrameReport report = draw_terrain(settings, input, terrain, refused_tiles, tables, renderer,
+  FrameSettings planned = settings;
+  FramePlan plan;
+  plan.error_px = settings.error_px;
+  if (settings.pace != nullptr) plan = settings.pace->begin(input.bus_frames);
+  planned.error_px = plan.error_px;
+  FrameReport report = draw_terrain(planned, input, terrain, refused_tiles, tables, renderer,
                                     blocks, attitude_valid);
-  if (report.availability.mode == Mode::removed) report.bound_px = 0;
+  report.detail = plan.detail;
+  tell_plan(settings, plan, report);
+  if (report.availability.mode == Mode::removed) renderer.use_single_rays();
   renderer.upload_text(text_layer(report, tables.text));
-  renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid));
+  renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid),
+                 shading_of(report));
+  const auto pixels = static_cast<std::int64_t>(report.camera.width_px) * report.camera.height_px;
+  if (report.availability.mode == Mode::removed) report.work.shaded = 0;
+  report.work.pixels = pixels;
   return report;
+}
+
+void end_pace(const FrameSettings& settings, const FrameReport& report) {
+  if (settings.pace == nullptr) return;
+  settings.pace->end(report.work, report.bound_px);
 }
 
 FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTables& tables) {
@@ -235,9 +264,10 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
   if (counts.counters.unresolved > 0) {
     add_reason(report.availability, Reason::no_bound);
     report.bound_px = 0;
+    renderer.use_single_rays();
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
-                   style_block(report, PostLattice{}, GeoidLookup{}, true));
+                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain);
   }
   return counts;
 }

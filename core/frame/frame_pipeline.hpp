@@ -4,6 +4,7 @@
 #include "core/frame/frame_report.hpp"
 #include "core/frame/ray_tiles.hpp"
 #include "core/frame/terrain_keeper.hpp"
+#include "core/monitor/frame_pace.hpp"
 #include "core/render/renderer.hpp"
 
 namespace ridgeline {
@@ -34,7 +35,8 @@ struct FrameSettings {
   /// Every pixel by the ray cast pass, no projected grid: the plain max-pyramid ray caster that the
   /// benchmark compares with.
   bool cast_every_pixel = false;
-  RangePass instead;  ///< of the module's own passes; none in the product
+  RangePass instead;          ///< of the module's own passes; none in the product
+  FramePace* pace = nullptr;  ///< keeps frames in time; null: every frame as configured
 };
 
 /// What one frame is drawn from.
@@ -44,6 +46,7 @@ struct FrameInput {
   Attitude attitude;
   Availability availability;  ///< from the ownship data; removed means eye or attitude are no good
   bool attitude_valid = true;
+  int bus_frames = 0;  ///< decoded for this frame
 };
 
 /// Tables the pipeline fills anew each frame; static storage, sizes from config/limits.hpp.
@@ -54,7 +57,9 @@ struct FrameTables {
   RayTileTables tiles;
 };
 
-/// Draws one frame: availability, local frame and camera, terrain window, error budget, projected
+/// Draws one frame. With a pace it is begun here and asked on the way: a frame that is late is
+/// finished with a larger bound; end_pace() is the caller's once the picture is finished.
+/// Steps: availability, local frame and camera, terrain window, error budget, projected
 /// grid, error buffer, ray cast, shading. Reads top to bottom; branches only on faults.
 /// Result: the report; the picture is in the renderer's targets. A frame whose terrain cannot be
 ///         drawn with a bound is `removed`, and says why.
@@ -65,5 +70,8 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
 /// Counters and times of the frame just drawn. Waits for the GPU. A march that met its step limit
 /// makes the frame void: the report is turned into a removed one and the picture drawn again.
 FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTables& tables);
+
+/// Tells the pace, if there is one, that the frame is finished, the GPU's part too.
+void end_pace(const FrameSettings& settings, const FrameReport& report);
 
 }  // namespace ridgeline

@@ -7,6 +7,7 @@
 #include "core/geo/camera.hpp"
 #include "core/geo/local_frame.hpp"
 #include "core/monitor/availability.hpp"
+#include "core/monitor/frame_work.hpp"
 #include "core/render/frame_blocks.hpp"
 #include "core/render/renderer.hpp"
 
@@ -28,6 +29,9 @@ struct FrameReport {
   WindowSummary window;
   /// Of the eye over the known ground straight below; NaN where that is unknown or none was drawn.
   double over_ground_m = std::numeric_limits<double>::quiet_NaN();
+  FrameWork work;                          ///< done for it
+  ShadeDetail detail = ShadeDetail::full;  ///< as planned by the frame-budget monitor
+  bool finished_coarser = false;           ///< late: finished with a larger bound than planned
 };
 
 /// What the GPU counted and how long it took; read where the frame is waited for anyway.

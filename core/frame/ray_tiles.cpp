@@ -26,6 +26,11 @@ constexpr double farthest_witness_px = 10.0;
 constexpr double loss_step_px = 1.0 / 256;
 static_assert(shapes.size() == block_shapes);
 
+/// How far off a pixel's witnesses are looked for.
+double reach_px_of(const RaySharing& sharing) {
+  return std::min(sharing.bound_px + neighbour_px, farthest_witness_px);
+}
+
 class TilePlan {
  public:
   TilePlan(const Camera& camera, const RaySharing& sharing, const RayTileTables& tables,
@@ -40,7 +45,7 @@ class TilePlan {
     left_out_ = std::abs(up.y) >= std::abs(up.x) ? level_pair : upright_pair;
     // A block bears no less with what is a little more.
     BlockBearing& bearing = *tables_.bearing;
-    const double reach_px = std::min(sharing.bound_px + neighbour_px, farthest_witness_px);
+    const double reach_px = reach_px_of(sharing);
     const double loss_px = std::ceil(sharing.geometry_px / loss_step_px) * loss_step_px;
     if (bearing.reach_px == reach_px && bearing.loss_px == loss_px) return;
     bearing.reach_px = reach_px;
@@ -100,6 +105,7 @@ bool TilePlan::fits(std::size_t shape, std::size_t other, std::size_t index) {
       needed_steepness(look, static_cast<double>(std::max(steepness, gentle_steepness)));
   for (int bin = look.first_bin; bin <= look.last_bin; ++bin) {
     if (!(needed <= allowed(shape, other, bin))) return false;
+    if (sharing_.may_be_cut && !(needed <= allowed(shape, single, bin))) return false;
   }
   return true;
 }
@@ -178,14 +184,15 @@ int part_sky(std::span<RayTile> tiles, std::span<float> steepness) {
 
 RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
                            const Camera& camera, const RaySharing& sharing,
-                           const RayTileTables& tables) {
-  const int ring_px = static_cast<int>(sharing.bound_px + neighbour_px) + 1;
+                           const RayTileTables& tables, const TileCut& cut) {
+  const double reach_px = reach_px_of(sharing);
+  const int ring_px = std::max(static_cast<int>(reach_px) + 1, cut.from_px > 0 ? cut_ring_px : 0);
   const bool polar = terrain.lattice().polar();  // its blocks have no east and north
-  const bool small = std::min(camera.width_px, camera.height_px) < 4 * ring_px;
+  const bool small = std::min(camera.width_px, camera.height_px - cut.from_px) < 4 * ring_px;
   const bool surveyed = !polar && !sharing.every_pixel;
   const bool shared = surveyed && !small && sharing.slack_px >= BlockShape{1, 2}.radius_px();
   const TileAxis across{camera.width_px, shared ? ring_px : 0};
-  const TileAxis down{camera.height_px, shared ? ring_px : 0};
+  const TileAxis down{camera.height_px, shared ? ring_px : 0, cut.from_px, cut.kept_rows};
   RayTilePlan result;
   result.tiles = put_tiles(across, down, tables.tiles);
   result.ground_tiles = result.tiles;

@@ -17,6 +17,7 @@ struct RaySharing {
   double bound_px = 0;       ///< promised
   double geometry_px = 0;    ///< what rounding can move a ray by
   bool every_pixel = false;  ///< each has a ray, sky or not
+  bool may_be_cut = false;   ///< rays for every pixel may take the place of what is below a row
 };
 
 inline constexpr std::size_t block_shapes = 8;  ///< that the plan knows
@@ -45,15 +46,25 @@ struct RayTilePlan {
   double shared_px = 0;  ///< largest distance of a pixel from its ray
 };
 
+/// Where a plan begins that takes over from another one: below the tiles that are drawn already.
+struct TileCut {
+  int kept_rows = 0;  ///< of tiles, above the cut
+  int from_px = 0;    ///< first row of pixels below it
+};
+
+/// The least border of a part below a cut: with it no cut needs more tiles than a whole picture.
+inline constexpr int cut_ring_px = 15;
+
 /// Cuts the picture into tiles and gives each the largest block of pixels that one ray may stand
 /// for: near enough to every one of them for the promise, and so that nothing that a pixel truly
 /// sees is left out of the pixels round it.
 /// Ground that is drawn with a residual, or beside unknown ground, has a ray for every pixel; a
-/// tile where no ground can show has one ray, as all of it is sky. Result: tables.tiles is filled.
+/// tile where no ground can show has one ray, as all of it is sky. Result: tables.tiles is filled;
+/// with a cut, with the tiles below it, which have a border along it.
 /// Cost:   O(blocks of the window + tiles); no allocation.
 /// Source: docs/error_bound.md, section 8.
 RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
                            const Camera& camera, const RaySharing& sharing,
-                           const RayTileTables& tables);
+                           const RayTileTables& tables, const TileCut& cut = {});
 
 }  // namespace ridgeline

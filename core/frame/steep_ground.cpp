@@ -177,8 +177,8 @@ TileRect Marking::tiles_of(const GroundBox& box) const {
     }
   }
   const double more = limits_.margin_px;
-  if (image.x1 < -more || image.y1 < -more || image.x0 > camera_.width_px + more ||
-      image.y0 > camera_.height_px + more) {
+  if (image.x1 < -more || image.y1 < tiles_.down.first_px - more ||
+      image.x0 > camera_.width_px + more || image.y0 > camera_.height_px + more) {
     return {};
   }
   return {tiles_.across.tile_of(image.x0 - more), tiles_.down.tile_of(image.y0 - more),

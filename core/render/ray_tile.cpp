@@ -11,9 +11,10 @@ int put_tiles(const TileAxis& across, const TileAxis& down, std::span<RayTile> t
   for (int j = 0; j < down.count(); ++j) {
     for (int i = 0; i < across.count(); ++i) {
       const int x = across.begin(i), y = down.begin(j);
-      tiles[k++] = {RayTile::pair(x, y), RayTile::pair(i * ray_tile_px, j * ray_tile_px),
-                    RayTile::pair(across.begin(i + 1) - x, down.begin(j + 1) - y),
-                    RayTile::pair(1, 1)};
+      tiles[k++] = {
+          RayTile::pair(x, y),
+          RayTile::pair((across.first_rays + i) * ray_tile_px, (down.first_rays + j) * ray_tile_px),
+          RayTile::pair(across.begin(i + 1) - x, down.begin(j + 1) - y), RayTile::pair(1, 1)};
     }
   }
   return count;

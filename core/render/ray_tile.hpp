@@ -42,24 +42,27 @@ struct RayTiles {
 
 inline constexpr int ray_tile_px = 32;  ///< a side, but for tiles at the borders
 
-/// How one axis of a picture is cut into tiles: a border of `ring` pixels at either end, so many
-/// pixels each between. Domain: size > 2 ring, or ring = 0.
+/// How one axis of a picture, from `first_px` on, is cut into tiles: a border of `ring` pixels at
+/// either end, so many pixels each between. Domain: size - first > 2 ring, or ring = 0.
 struct TileAxis {
   int size_px = 0, ring_px = 0;
+  int first_px = 0;
+  int first_rays = 0;  ///< tiles of the targets that are left out before the first
 
   [[nodiscard]] int inner() const {
-    return (size_px - 2 * ring_px + ray_tile_px - 1) / ray_tile_px;
+    return (size_px - first_px - 2 * ring_px + ray_tile_px - 1) / ray_tile_px;
   }
   [[nodiscard]] int count() const { return inner() + (ring_px > 0 ? 2 : 0); }
   /// First pixel of tile k; of tile count(): the end of the picture.
   [[nodiscard]] int begin(int k) const {
     if (k >= count()) return size_px;
-    if (ring_px == 0) return k * ray_tile_px;
-    if (k == 0) return 0;
-    return std::min(ring_px + (k - 1) * ray_tile_px, size_px - ring_px);
+    if (ring_px == 0) return first_px + k * ray_tile_px;
+    if (k == 0) return first_px;
+    return std::min(first_px + ring_px + (k - 1) * ray_tile_px, size_px - ring_px);
   }
   [[nodiscard]] int tile_of(double px) const {
-    const double inside = std::floor((px - ring_px) / ray_tile_px) + (ring_px > 0 ? 1 : 0);
+    const double inside =
+        std::floor((px - first_px - ring_px) / ray_tile_px) + (ring_px > 0 ? 1 : 0);
     if (ring_px > 0 && px >= size_px - ring_px) return count() - 1;
     return static_cast<int>(std::clamp(inside, 0.0, count() - 1.0));
   }

@@ -30,6 +30,21 @@ constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
                                                                      "#define level_count 5\n",
                                                                      "#define level_count 6\n"};
 static_assert(max_levels == 6);
+constexpr std::array<std::string_view, shading_count> shade_defines{
+    "#define shading 0\n", "#define shading 1\n", "#define shading 2\n", "#define shading 3\n"};
+
+/// Two sets of lines, one after the other.
+struct JoinedDefines {
+  std::array<char, 64> text{};
+  std::size_t size = 0;
+
+  JoinedDefines(std::string_view first, std::string_view second) {
+    RL_ASSERT(first.size() + second.size() <= text.size());
+    size = first.copy(text.data(), first.size());
+    size += second.copy(text.data() + size, second.size());
+  }
+  [[nodiscard]] std::string_view view() const { return {text.data(), size}; }
+};
 
 GLuint groups(int count, int size) {
   return static_cast<GLuint>((count + size - 1) / size);
@@ -110,12 +125,18 @@ Status Renderer::make_programs(ShaderLog log) {
   };
   for (const Drawn& entry :
        {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
-        Drawn{&shade_, "shade", shader::tile_rays_vert, shader::shade_frag},
         Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag},
         Drawn{&sky_, "sky", shader::tile_pixels_vert, shader::sky_frag},
         Drawn{&words_, "words", shader::tile_pixels_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
+    if (!made) return made;
+  }
+  for (std::size_t k = 0; k < shading_count; ++k) {
+    const JoinedDefines both(defines, shade_defines[k]);
+    const Status made = take(
+        make_draw_program("shade", shader::tile_rays_vert, shader::shade_frag, log, both.view()),
+        shade_[k]);
     if (!made) return made;
   }
   return {};
@@ -255,6 +276,13 @@ void Renderer::end_range() {
 
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
                             std::span<const float> slopes, const RayTiles& tiles) {
+  begin_terrain(blocks, planes, slopes, tiles);
+  draw_tiles(range_target_, ray_cast_, all_tiles());
+  end_range();
+}
+
+void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                             std::span<const float> slopes, const RayTiles& tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
   tiles_.write(0, tiles.tiles);
@@ -271,8 +299,17 @@ void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneReco
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
   timer_.stamp(static_cast<int>(Pass::ray_cast));
-  draw_tiles(range_target_, ray_cast_, all_tiles());
-  end_range();
+}
+
+void Renderer::cast_tiles(int first, int count) const {
+  RL_ASSERT(first >= 0 && count >= 0 && first + count <= all_tiles().count);
+  draw_tiles(range_target_, ray_cast_, {first, count});
+}
+
+void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {
+  tiles_shown_ = tiles;
+  tiles_.write(0, tiles.tiles);
+  write_frame_block(blocks);
 }
 
 void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
@@ -311,7 +348,7 @@ void Renderer::draw_words() const {
   glDisable(GL_BLEND);
 }
 
-void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style) {
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
   write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
@@ -321,7 +358,7 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style)
   bind_texture(shader::text_unit, text_);
   timer_.stamp(static_cast<int>(Pass::shade));
   const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
-  draw_tiles(shaded_target_, shade_, ground_tiles());
+  draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
   draw_tiles(colour_target_, present_, ground_tiles());
   if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});

@@ -23,6 +23,11 @@ struct RenderSizes {
 /// GPU bytes of the terrain for each post of the window: the post, and its share of the pyramid.
 inline constexpr double gpu_bytes_per_post = 4.0 * (1.0 + 0.375);
 
+/// How much the shade pass makes of the ground: everything; no lines on it; each cell lit by
+/// itself; no ground at all, for frames without terrain.
+enum class Shading : std::uint8_t { full, no_lines, facets, plain };
+inline constexpr std::size_t shading_count = 4;
+
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
   std::uint32_t rays_cast = 0;   ///< pixels whose ray was followed through the terrain
@@ -59,10 +64,16 @@ class Renderer {
   /// tile. Owner: `tiles` is looked at again when the picture is shaded or read.
   void draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
                     std::span<const float> slopes, const RayTiles& tiles);
+  /// The same in parts: all but the rays; then rays of tiles, in any order; end_range() at the end.
+  void begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
+                     std::span<const float> slopes, const RayTiles& tiles);
+  void cast_tiles(int first, int count) const;
+  /// Other tiles from here on; those drawn already stand where they stood.
+  void replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles);
   /// From here on every pixel has its own ray: for pictures without terrain, or by others.
   void use_single_rays() { tiles_shown_ = {}; }
   /// Shades the current range picture into the colour target.
-  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style);
+  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading);
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
   void upload_text(std::span<const std::uint8_t> layer);
 
@@ -108,7 +119,8 @@ class Renderer {
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
   RenderSizes sizes_;
-  Program sweep_, ray_cast_, count_, shade_, present_, sky_, words_;
+  Program sweep_, ray_cast_, count_, present_, sky_, words_;
+  std::array<Program, shading_count> shade_;
   Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
   TileList tiles_, single_tiles_, word_tiles_;

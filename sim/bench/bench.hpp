@@ -45,6 +45,10 @@ Outcome bench(const BenchOptions& options);
 Outcome bench_paper(const BenchOptions& options, const std::string& paper,
                     const std::string& puget_file);
 
+/// Frame times of a recorded flight against a deadline, each of `log_views` frames drawn with the
+/// frame-budget monitor and without. Prints tables; writes `json_file` where it is asked for.
+Outcome bench_monitor(const BenchOptions& options, double deadline_ms);
+
 struct PugetMap;
 /// Its views.
 [[nodiscard]] std::vector<BenchView> puget_views(const PugetMap& map, int count);

@@ -12,10 +12,16 @@ struct BenchArguments : SceneArguments {
   BenchOptions options;
   std::string methods, paper, puget_file;
   bool own_picture = false;  ///< --size or --range was given
+  bool monitor = false;
+  double deadline_ms = 1e-6 * static_cast<double>(limits::default_deadline_ns);
 };
 
 /// What is missing or too much; empty when nothing is.
 std::string wrong_combination(const BenchArguments& arguments) {
+  if (arguments.monitor && arguments.options.log_file.empty()) return "--monitor needs --log";
+  if (arguments.monitor && !(arguments.methods.empty() && arguments.paper.empty())) {
+    return "--monitor measures the module's own passes alone";
+  }
   if (arguments.paper.empty()) {
     if (!arguments.puget_file.empty()) return "--puget goes with --paper";
     return arguments.scene.terrain_folder.empty() ? "--terrain is required (see --help)" : "";
@@ -43,6 +49,10 @@ int run_bench(BenchArguments& arguments) {
     }
   }
   arguments.options.scene = arguments.scene;
+  if (arguments.monitor) {
+    const Outcome measured = bench_monitor(arguments.options, arguments.deadline_ms);
+    return measured.ok() ? done : fail(bad_input, measured.message);
+  }
   const Outcome measured = arguments.paper.empty() ? bench(arguments.options)
                                                    : bench_paper(arguments.options, arguments.paper,
                                                                  arguments.puget_file);
@@ -79,6 +89,12 @@ void add_bench_command(CLI::App& program, int& status) {
       ->capture_default_str();
   command->add_option("--pixels", options.judged_pixels, "pixels the oracle judges a picture")
       ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command->add_flag("--monitor", arguments->monitor,
+                    "frame times against the deadline, with the frame-budget monitor and without");
+  command->add_option("--deadline-ms", arguments->deadline_ms, "with --monitor: time of a frame")
+      ->check(within(1e-6 * static_cast<double>(limits::min_deadline_ns),
+                     1e-6 * static_cast<double>(limits::max_deadline_ns)))
       ->capture_default_str();
   command->callback([arguments, command, &status] {
     arguments->own_picture = command->count("--size") > 0 || command->count("--range") > 0;

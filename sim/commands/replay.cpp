@@ -22,6 +22,7 @@ struct ReplayArguments : SceneArguments {
   std::vector<std::string> arinc429_ports;
   std::string fine = "add";
   std::string canfix_height = "unknown";
+  std::string monitor = "off";
 };
 
 /// "PORT=EQ" into the profile; an error message, or empty.
@@ -64,6 +65,27 @@ std::string set_bus(const ReplayArguments& arguments, BusProfile& bus) {
   return {};
 }
 
+/// What the options say about the frame budget; an error message, or empty.
+std::string set_pace(const ReplayArguments& arguments, ReplayOptions& options) {
+  PaceOptions& pace = options.pace;
+  pace.kind = arguments.monitor == "work"   ? PaceOptions::Kind::work
+              : arguments.monitor == "real" ? PaceOptions::Kind::real
+                                            : PaceOptions::Kind::none;
+  if (!pace.decisions_file.empty()) {
+    if (pace.kind != PaceOptions::Kind::none)
+      return "--decisions brings its own clock: no --monitor";
+    // Terrain that came whenever the disk was done comes now as it did then.
+    if (options.scene.arrival == SceneOptions::Arrival::as_ready) {
+      options.scene.arrival = SceneOptions::Arrival::as_recorded;
+    }
+  }
+  if (!pace.record_file.empty() && pace.kind == PaceOptions::Kind::none &&
+      pace.decisions_file.empty()) {
+    return "--record-decisions needs --monitor: nothing is decided without";
+  }
+  return {};
+}
+
 int run_replay(ReplayArguments& arguments) {
   if (const std::string wrong = complete(arguments); !wrong.empty()) {
     return fail(wrong_usage, wrong);
@@ -81,8 +103,38 @@ int run_replay(ReplayArguments& arguments) {
   if (const std::string wrong = set_bus(arguments, options.bus); !wrong.empty()) {
     return fail(wrong_usage, wrong);
   }
+  if (const std::string wrong = set_pace(arguments, options); !wrong.empty()) {
+    return fail(wrong_usage, wrong);
+  }
   const Outcome replayed = replay(options);
   return replayed.ok() ? done : fail(bad_input, replayed.message);
+}
+
+void add_pace_options(CLI::App& command, ReplayArguments& arguments) {
+  PaceOptions& pace = arguments.replay.pace;
+  command
+      .add_option("--monitor", arguments.monitor,
+                  "keep the frame budget: time is counted work (repeatable), or this machine's")
+      ->check(CLI::IsMember({"off", "work", "real"}))
+      ->capture_default_str();
+  command.add_option("--deadline-ms", pace.deadline_ms, "time of a frame")
+      ->check(within(1e-6 * static_cast<double>(limits::min_deadline_ns),
+                     1e-6 * static_cast<double>(limits::max_deadline_ns)))
+      ->capture_default_str();
+  command
+      .add_option("--most-error", pace.most_px,
+                  "largest error bound taken to be in time; past it the terrain goes")
+      ->check(within(0.0, limits::max_error_px))
+      ->capture_default_str();
+  command
+      .add_option("--cost-scale", pace.cost_scale,
+                  "with --monitor work: so many times as slow as the reference machine")
+      ->check(within(0.001, 1000.0))
+      ->capture_default_str();
+  command.add_option("--record-decisions", pace.record_file,
+                     "file for what the monitor decided and when terrain came");
+  command.add_option("--decisions", pace.decisions_file,
+                     "file of a recorded run, to be done again exactly");
 }
 
 void add_bus_options(CLI::App& command, ReplayArguments& arguments) {
@@ -150,6 +202,7 @@ void add_replay_command(CLI::App& program, int& status) {
                    "wait before every block of terrain, as a slow disk would")
       ->check(CLI::Range(0, 1'000'000));
   add_bus_options(*command, *arguments);
+  add_pace_options(*command, *arguments);
   command->callback([arguments, &status] { status = run_replay(*arguments); });
 }
 

@@ -20,13 +20,16 @@ class LogPlayer {
       : frames_(log.frames), profile_(profile), limits_(state_limits(profile)) {}
 
   OwnshipPose advance(std::int64_t now_ns) {
+    const std::size_t before = next_;
     std::size_t end = next_;
     while (end < frames_.size() && frames_[end].time_ns <= now_ns) ++end;
     state_ = update_ownship(state_, frames_.subspan(next_, end - next_), now_ns, profile_);
     next_ = end;
+    decoded_ = static_cast<int>(next_ - before);
     return ownship_pose(state_, now_ns, limits_);
   }
   [[nodiscard]] const OwnshipState& state() const { return state_; }
+  [[nodiscard]] int decoded() const { return decoded_; }  ///< by the last advance()
 
  private:
   std::span<const BusFrame> frames_;
@@ -34,6 +37,7 @@ class LogPlayer {
   StateLimits limits_;
   OwnshipState state_;
   std::size_t next_ = 0;
+  int decoded_ = 0;
 };
 
 bool has_value(const PoseValue& value) {
@@ -143,13 +147,21 @@ Outcome replay(const ReplayOptions& options) {
   LogPlayer player(log, options.bus);
   ReplayReport report;
   GroundCheck ground;
+  ReplayPacing pacing;
+  if (Outcome opened = pacing.open(options.pace, options.scene); !opened.ok()) {
+    return opened;
+  }
+  session.settings().pace = pacing.pace();
   for (int index = 0; index < count; ++index) {
     const double at_s = options.from_s + index / options.rate_hz;
     const std::int64_t now_ns = start_ns + static_cast<std::int64_t>(std::llround(at_s * 1e9));
+    if (Outcome begun = pacing.begin_frame(index, now_ns, session); !begun.ok()) return begun;
     const OwnshipPose pose = player.advance(now_ns);
-    const Picture picture =
-        session.draw(input_of(pose, ground, now_ns, options, derived), want_pixels);
+    FrameInput input = input_of(pose, ground, now_ns, options, derived);
+    input.bus_frames = player.decoded();
+    const Picture picture = session.draw(input, want_pixels);
     if (!picture.problem.ok()) return picture.problem;
+    if (Outcome ended = pacing.end_frame(index, now_ns, session); !ended.ok()) return ended;
     // What this frame showed is judged by the next one: the ground below is known once it is drawn.
     ground = ground_check(ground, pose.radio_height_m, picture.report.over_ground_m, now_ns);
     for (const std::string& problem : session.new_problems()) {
@@ -166,6 +178,7 @@ Outcome replay(const ReplayOptions& options) {
   std::printf("%d frames, %d removed, median %.1f ms a frame, %llu bad lines in the log\n", count,
               report.removed_count(), report.median_cpu_ms(),
               static_cast<unsigned long long>(log.statistics.bad_lines));
+  if (Outcome written = pacing.finish(); !written.ok()) return written;
   if (options.report_file.empty()) return {};
   const auto json = report.finished(log, player.state(), ground, session, options.log_file);
   return write_file(options.report_file, json.dump(1) + "\n");

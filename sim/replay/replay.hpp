@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/bus/bus_profile.hpp"
+#include "sim/replay/replay_pacing.hpp"
 #include "sim/session/session.hpp"
 
 namespace ridgeline::sim {
@@ -18,6 +19,7 @@ struct ReplayOptions {
   std::optional<double> to_s;
   std::string frames_folder, dump_folder, report_file;  ///< empty: not written
   int dump_every = 1;                                   ///< frames
+  PaceOptions pace;
 };
 
 /// Renders a log. The clock is the log's own time: frame k shows the moment

@@ -73,6 +73,31 @@ nlohmann::ordered_json log_json(const CandumpLog& log) {
           {"interfaces", log.notes.interfaces}};
 }
 
+nlohmann::ordered_json budget_json(const FrameBudget& budget) {
+  const BudgetCounters& c = budget.counters;
+  nlohmann::ordered_json json = {
+      {"deadline_ms", 1e-6 * static_cast<double>(budget.settings.deadline_ns)},
+      {"wanted_px", budget.settings.wanted_px},
+      {"most_px", budget.settings.most_px},
+      {"frames", c.frames},
+      {"sheds", c.sheds},
+      {"restores", c.restores},
+      {"late_finishes", c.late_finishes},
+      {"given_up", c.given_up},
+      {"frames_without_terrain", c.frames_without_terrain},
+      {"worst_ms", 1e-6 * static_cast<double>(c.worst_ns)},
+      {"worst_cause", cause_word(c.worst_cause)},
+      {"worst_px", c.worst_px}};
+  for (std::size_t k = 1; k < overrun_cause_count; ++k) {
+    json["overruns"][cause_word(static_cast<OverrunCause>(k))] = c.overruns[k];
+  }
+  for (std::size_t k = 0; k < frame_stage_count; ++k) {
+    json["worst_stage_ms"][stage_word(static_cast<FrameStage>(k))] =
+        1e-6 * static_cast<double>(c.worst_stage_ns[k]);
+  }
+  return json;
+}
+
 nlohmann::ordered_json bus_json(const UpdateCounters& c) {
   return {{"frames", c.frames},
           {"decoded", c.decoded},
@@ -146,8 +171,15 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["planes"] = report.planes;
   frame["rows"] = report.rows;
   frame["nodes"] = report.nodes;
+  frame["rays"] = report.rays;
   frame["geometry_px"] = report.budget.geometry_px;
   frame["level_px"] = report.budget.level_px;
+  if (picture.elapsed_ns > 0) {
+    frame["budget"] = {{"step", picture.plan.step},
+                       {"planned_px", picture.plan.error_px},
+                       {"elapsed_ms", 1e-6 * static_cast<double>(picture.elapsed_ns)},
+                       {"finished_coarser", report.finished_coarser}};
+  }
   frame["blocks_arrived"] = report.window.blocks_arrived;
   frame["upload_ms"] = picture.take.upload_ms;
   frame["wait_ms"] = picture.take.wait_ms;
@@ -228,6 +260,9 @@ nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const Ownsh
   json["log_lines"] = log_json(log);
   json["bus"] = bus_json(state.counters);
   json["integrity"] = integrity_json(state.counters, ground);
+  if (session.settings().pace != nullptr) {
+    json["budget"] = budget_json(session.settings().pace->budget());
+  }
   json["frames"] = frames_;
   return json;
 }

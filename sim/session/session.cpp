@@ -144,9 +144,10 @@ void Session::apply_edits(double time_s) {
 void Session::open_terrain(double far_floor) {
   const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
   options_.settings.geoid = geoid;
-  const auto arrival = options_.arrival == SceneOptions::Arrival::as_ready
-                           ? BlockWorker::Arrival::as_ready
-                           : BlockWorker::Arrival::in_step;
+  using From = SceneOptions::Arrival;
+  const auto arrival = options_.arrival == From::as_ready      ? BlockWorker::Arrival::as_ready
+                       : options_.arrival == From::as_recorded ? BlockWorker::Arrival::as_recorded
+                                                               : BlockWorker::Arrival::in_step;
   worker_ = std::make_unique<BlockWorker>(
       *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival, polar_,
                                       options_.read_delay_us});
@@ -199,14 +200,18 @@ void Session::warm_up() {
                           {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
   std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
-  renderer_->shade(nothing, shader::StyleBlock{});
+  for (const Shading shading :
+       {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
+    renderer_->shade(nothing, shader::StyleBlock{}, shading);
+  }
   static_cast<void>(renderer_->read_counters());
 }
 
 void Session::settle_if_due(const FrameInput& input) {
   const bool placed = input.availability.mode != Mode::removed && local_frame(input.eye).ok();
   const bool always = options_.arrival == SceneOptions::Arrival::settled;
-  const bool never = options_.arrival == SceneOptions::Arrival::as_ready;
+  const bool never = options_.arrival == SceneOptions::Arrival::as_ready ||
+                     options_.arrival == SceneOptions::Arrival::as_recorded;
   if (!placed || never || (settled_ && !always)) return;
   terrain_->settle(input.eye, *renderer_);
   settled_ = true;
@@ -238,11 +243,17 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     picture.report =
         draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
     picture.counts = finish_frame(*renderer_, picture.report, tables);
+    end_pace(settings, picture.report);
   }
   picture.cpu_ms = now_ms() - start_ms;
   picture.core_ms = process_ms() - start_core_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
   picture.take = worker_->last_take();
+  if (settings.pace != nullptr) {
+    const PaceRecord& record = settings.pace->record();
+    picture.plan = record.plan;
+    picture.elapsed_ns = record.readings[record.readings.size() - 1].elapsed_ns;
+  }
   if (method_ != nullptr && picture.report.availability.mode != Mode::removed) {
     picture.method = method_->facts();
     picture.counts.ray_cast_share = picture.method.ray_cast_share;

@@ -29,7 +29,8 @@ struct SceneOptions {
   /// When terrain counts as there: `settled` before every picture (single views), `in_step` so many
   /// blocks a frame (repeatable runs; the first drawn frame starts settled), `as_ready` whenever
   /// the disk is done.
-  enum class Arrival : std::uint8_t { settled, in_step, as_ready };
+  /// `as_recorded`: as expect_blocks() says, frame by frame.
+  enum class Arrival : std::uint8_t { settled, in_step, as_ready, as_recorded };
   Arrival arrival = Arrival::settled;
   double terrain_gpu_bytes = limits::terrain_gpu_bytes;  ///< most the terrain window may take
   int read_delay_us = 0;  ///< before every block; shows that slow disks change no bit
@@ -45,7 +46,9 @@ struct Picture {
   double core_ms = 0;         ///< CPU time of all threads of the program over that
   double since_start_ms = 0;  ///< from the start of the program to the end of this frame
   BlockWorker::TakeTimes take;
-  double wanted_px = 0;  ///< the configured error bound and range
+  FramePlan plan;               ///< where a frame budget is kept
+  std::int64_t elapsed_ns = 0;  ///< on its clock; 0: none is kept
+  double wanted_px = 0;         ///< the configured error bound and range
   double wanted_range_m = 0;
   std::vector<float> range_m;  ///< empty in a removed frame
   std::vector<std::uint8_t> rgb;
@@ -89,6 +92,10 @@ class Session {
   [[nodiscard]] std::size_t mapped_bytes() const { return worker_->mapped_bytes(); }
   [[nodiscard]] std::uint64_t blocks_loaded() const { return worker_->blocks_taken(); }
   [[nodiscard]] std::size_t loader_bytes() const { return worker_->buffer_bytes(); }
+  /// Blocks of terrain that came in since the last call, by rounds of taking; and how many the next
+  /// frame is to wait for.
+  BlockWorker::Rounds blocks_in_rounds() { return worker_->taken_in_rounds(); }
+  void expect_blocks(const BlockWorker::Rounds& rounds) { worker_->expect(rounds); }
   [[nodiscard]] const LevelSizes& window() const { return window_; }
   [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
   [[nodiscard]] int sea_cells() const { return folder_->sea_count(); }
