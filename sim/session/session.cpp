@@ -159,13 +159,13 @@ void Session::open_terrain(double far_floor) {
 }
 
 Outcome Session::open_renderer() {
-  auto surface = EglSurface::make();
-  if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
-  surface_ = std::move(surface).value();
+  auto context = EglContext::make();
+  if (!context) return {context.fault(), "graphics: " + std::string(fault_text(context.fault()))};
+  context_ = std::move(context).value();
   const ImageGeometry& image = options_.settings.image;
   const RenderSizes sizes{image.width_px, image.height_px, window_, limits::max_planes,
                           limits::max_rows};
-  auto renderer = Renderer::make(sizes, surface_->timer_functions(), print_shader_log);
+  auto renderer = Renderer::make(sizes, context_->timer_functions(), print_shader_log);
   if (!renderer) {
     return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
   }
@@ -210,14 +210,14 @@ void Session::settle_if_due(const FrameInput& input) {
 }
 
 Session::~Session() {
-  if (surface_) surface_->make_current();  // its GL objects are deleted in its own context
+  if (context_) context_->make_current();  // its GL objects are deleted in its own context
 }
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   const FrameTables tables{planes_, slopes_, text_, {ray_tiles_, tile_steepness_, tile_shapes_}};
   double start_ms = 0, start_core_ms = 0;
-  surface_->make_current();
+  context_->make_current();
   picture.problem = prepare(input);
   if (!picture.problem.ok()) {
     picture.report.availability.mode = Mode::removed;

@@ -8,7 +8,7 @@
 
 #include "core/frame/frame_pipeline.hpp"
 #include "platform/block_worker.hpp"
-#include "platform/egl_surface.hpp"
+#include "platform/egl_context.hpp"
 #include "platform/geoid_file.hpp"
 #include "platform/terrain_folder.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
@@ -93,7 +93,7 @@ class Session {
   [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
   [[nodiscard]] int sea_cells() const { return folder_->sea_count(); }
   [[nodiscard]] int idle_sea_cells() const { return folder_->idle_sea_count(); }
-  [[nodiscard]] const char* driver() const { return surface_->description(); }
+  [[nodiscard]] const char* driver() const { return context_->description(); }
   [[nodiscard]] TerrainKeeper& terrain() { return *terrain_; }
 
  private:
@@ -126,7 +126,7 @@ class Session {
   std::optional<TerrainFolder> folder_;
   GeoidFile geoid_;
   GeoidGrid geoid_grid_;
-  std::optional<EglSurface> surface_;
+  std::optional<EglContext> context_;
   std::optional<Renderer> renderer_;
   PostLattice lattice_;
   LevelSizes window_;
