@@ -13,32 +13,34 @@ namespace {
 using P = BusParameter;
 
 Votes sum(const Votes& a, const Votes& b) {
-  return {a.present + b.present, a.against + b.against};
+  return {a.against + b.against, a.in_favour + b.in_favour};
 }
 
 bool is_frozen(const OwnshipState& state, Compared what) {
   return state.integrity.freezes[static_cast<std::size_t>(what)].raised;
 }
 
-Votes vote_of(const DriftWatch& watch, std::int64_t now_ns) {
-  const bool against = contradicts(watch, now_ns);
-  return {against || is_present(watch, now_ns) ? 1 : 0, against ? 1 : 0};
+/// A watch that allows more than another one is not in favour of what that one objects to: within
+/// a quarter of its limit it is.
+Votes vote_of(const DriftWatch& watch, double limit_m, std::int64_t now_ns) {
+  if (contradicts(watch, now_ns)) return {1, 0};
+  const bool near = std::hypot(watch.east_m, watch.north_m) <= 0.25 * limit_m;
+  return {0, near && is_present(watch, now_ns) ? 1 : 0};
 }
 
 Votes vote_of(const HeadingPairs& pairs, const Confirmation& pair, std::size_t index,
               std::int64_t now_ns) {
   const std::int64_t age_ns = now_ns - pairs.time_ns[index];
-  const bool against = pair.raised && age_ns <= limits::contradiction_memory_ns;
+  if (pair.raised && age_ns <= limits::contradiction_memory_ns) return {1, 0};
   const bool present = pairs.time_ns[index] != 0 && age_ns <= limits::heading_timeout_ns;
-  return {against || present ? 1 : 0, against ? 1 : 0};
+  return {0, present && !pair.pending ? 1 : 0};
 }
 
-/// `of_own` comes from the same receiver or is a rate of the value: it counts against only where
-/// nobody else agrees with the value, and never for it.
+/// `of_own_against` comes from the same receiver or is a rate of the value: it counts against only
+/// where nobody else confirms the value, and never for it.
 Doubt weighed(const Votes& others, bool of_own_against) {
-  const bool somebody_agrees = others.present > others.against;
-  if (others.against > 0 && !somebody_agrees) return Doubt::disagrees;
-  if (of_own_against && !somebody_agrees) return Doubt::disagrees;
+  const bool against = others.against > 0 || of_own_against;
+  if (against && others.in_favour == 0) return Doubt::disagrees;
   return others.against > 0 ? Doubt::excluded : Doubt::none;
 }
 
@@ -46,9 +48,10 @@ Doubt fix_doubt(const OwnshipState& state, bool is_gps, std::int64_t now_ns) {
   const IntegrityState& integrity = state.integrity;
   const Votes rivals = rival_votes(state, is_gps ? Compared::gps_fix : Compared::ins_fix, now_ns);
   // One that stands still leaves the other one; it is no witness against it.
-  const Votes receivers = is_frozen(state, is_gps ? Compared::ins_fix : Compared::gps_fix)
-                              ? Votes{}
-                              : vote_of(integrity.receivers.fixes, now_ns);
+  const Votes receivers =
+      is_frozen(state, is_gps ? Compared::ins_fix : Compared::gps_fix)
+          ? Votes{}
+          : vote_of(integrity.receivers.fixes, limits::receivers_limit_m, now_ns);
   return weighed(sum(rivals, receivers),
                  contradicts(integrity.fixes[is_gps ? 0 : 1].reckoned, now_ns));
 }
@@ -58,10 +61,11 @@ Doubt height_doubt(const OwnshipState& state, bool is_gps, std::int64_t now_ns) 
   const HeightTrack& track = integrity.heights[is_gps ? 0 : 1];
   const Votes rivals =
       rival_votes(state, is_gps ? Compared::gps_height : Compared::ins_height, now_ns);
-  const Votes receivers = is_frozen(state, is_gps ? Compared::ins_height : Compared::gps_height)
-                              ? Votes{}
-                              : vote_of(integrity.receivers.heights, now_ns);
-  const Votes others = sum(receivers, vote_of(track.barometer, now_ns));
+  const Votes receivers =
+      is_frozen(state, is_gps ? Compared::ins_height : Compared::gps_height)
+          ? Votes{}
+          : vote_of(integrity.receivers.heights, limits::receiver_heights_limit_m, now_ns);
+  const Votes others = sum(receivers, vote_of(track.barometer, limits::barometer_limit_m, now_ns));
   return weighed(sum(rivals, others), contradicts(track.climbed, now_ns));
 }
 

@@ -290,12 +290,19 @@ void watch_height(OwnshipState& state, bool is_gps) {
   const bool both_climbs = same && before.climbs && track.climbs;
   const double climbed_m = 0.5 * (before.climb_mps + track.climb_mps) * since_s;
   const double pressed_m = track.pressure_m - before.pressure_m;
-  note_sample(state, is_gps ? Compared::gps_height : Compared::ins_height, height.value, 0.0,
-              time_ns,
-              both_climbs      ? climbed_m
-              : both_pressures ? pressed_m
-                               : nothing,
-              {limits::height_freeze_m, limits::position_freeze_ns});
+  // Where two can say that it moved, both must: one of them may be what is wrong. `other` is the
+  // pressure height at which it began to stand still.
+  const Compared what = is_gps ? Compared::gps_height : Compared::ins_height;
+  FreezeWatch& watch = freeze_of(state, what);
+  const bool denied = both_climbs && track.has_pressure &&
+                      std::abs(track.pressure_m - watch.other) <= limits::height_freeze_m;
+  const double limit_m = denied ? std::numeric_limits<double>::infinity() : limits::height_freeze_m;
+  const double moved_m = both_climbs ? climbed_m : both_pressures ? pressed_m : nothing;
+  note_sample(state, what, height.value, 0.0, time_ns, moved_m,
+              {limit_m, limits::position_freeze_ns});
+  if (watch.since_ns == time_ns || std::isnan(watch.other)) {
+    watch.other = track.has_pressure ? track.pressure_m : nothing;
+  }
   if (both_climbs) {
     move_on(state, track.climbed, {rose_m - climbed_m, 0.0}, time_ns, climb_mps, climbed_rule);
   } else {

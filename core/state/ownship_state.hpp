@@ -79,7 +79,7 @@ struct UpdateCounters {
   std::uint32_t outvoted = 0;          ///< sources left because two others agreed against them
 };
 
-/// The ownship as the bus describes it. Trivially copyable; about 12 KiB.
+/// The ownship as the bus describes it. Trivially copyable; about 8 KiB.
 /// The samples of a latitude and its longitude always belong to one fix: one source, times within
 /// BusProfile::fix_pair_limit_ns; they change together or not at all.
 struct OwnshipState {

@@ -146,8 +146,8 @@ Votes rival_votes(const OwnshipState& state, Compared what, std::int64_t now_ns)
     const bool against = rival.used && rival.valued && rival.contradiction.raised &&
                          now_ns - rival.time_ns <= limits::contradiction_memory_ns;
     if (!against && !is_fresh(rival, rule_of(what), now_ns)) continue;
-    ++votes.present;
     votes.against += against ? 1 : 0;
+    votes.in_favour += against || rival.contradiction.pending ? 0 : 1;
   }
   return votes;
 }

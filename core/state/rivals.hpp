@@ -13,10 +13,11 @@ namespace ridgeline {
 /// What a parameter is compared as; nothing for those that the picture does not hang on.
 [[nodiscard]] std::optional<Compared> compared_as(BusParameter parameter);
 
-/// How many comparisons there are, and how many of them contradict.
+/// How many comparisons contradict, and how many confirm: not only within what is allowed, but near
+/// enough that what another one objects to would show.
 struct Votes {
-  int present = 0;
   int against = 0;
+  int in_favour = 0;
 };
 /// The senders besides the held one, at `now_ns`.
 [[nodiscard]] Votes rival_votes(const OwnshipState& state, Compared what, std::int64_t now_ns);

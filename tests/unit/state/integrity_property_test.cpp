@@ -69,6 +69,10 @@ const FaultCase cases[] = {
          t.longitude_deg = s.longitude_deg;
        };
      }},
+    {"height_stands_still", "height_frozen", 12.0, sole, 1,
+     [](const Truth& s) -> Falsifier { return [s](Truth& t) { t.height_m = s.height_m; }; }},
+    {"height_stands_still_by_the_barometer", "height_frozen", 12.0, with_barometer, 1,
+     [](const Truth& s) -> Falsifier { return [s](Truth& t) { t.height_m = s.height_m; }; }},
     {"fix_leaves_its_own_speed", "position_disagrees", 6.0, sole, 1,
      [](const Truth& s) -> Falsifier {
        return [s](Truth& t) { t.latitude_deg += 20.0 * since(t, s) / 111195.0; };
