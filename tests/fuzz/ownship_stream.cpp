@@ -26,7 +26,7 @@ std::uint64_t outcomes(const UpdateCounters& c) {
   return std::uint64_t{c.decoded} + c.ignored + c.not_data + c.other_channel + c.other_source +
          c.bad_length + c.type_mismatch + c.out_of_range + c.not_finite + c.bad_parity +
          c.no_computed_data + c.functional_test + c.failure_warning + c.suspect + c.unpaired_words +
-         c.implausible + c.out_of_order + c.from_future;
+         c.implausible + c.out_of_order + c.from_future + c.duplicated + c.replayed;
 }
 
 void check_counters(const UpdateCounters& before, const UpdateCounters& after, std::size_t frames) {
