@@ -121,10 +121,10 @@ void Session::apply_edits(double time_s) {
 }
 
 Outcome Session::open_renderer() {
-  auto surface = EglSurface::make();
-  if (!surface) return {surface.fault(), "graphics: " + std::string(fault_text(surface.fault()))};
-  surface_ = std::move(surface).value();
-  const Status made = scene_.open_renderer(surface_->timer_functions(), print_shader_log);
+  auto context = EglContext::make();
+  if (!context) return {context.fault(), "graphics: " + std::string(fault_text(context.fault()))};
+  context_ = std::move(context).value();
+  const Status made = scene_.open_renderer(context_->timer_functions(), print_shader_log);
   if (!made) return {made.fault(), "graphics: " + std::string(fault_text(made.fault()))};
   rgba_.resize(4 * scene_.pixels());
   return {};
@@ -140,13 +140,13 @@ void Session::settle_if_due(const FrameInput& input) {
 }
 
 Session::~Session() {
-  if (surface_) surface_->make_current();  // its GL objects are deleted in its own context
+  if (context_) context_->make_current();  // its GL objects are deleted in its own context
 }
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
   double start_ms = 0, start_core_ms = 0;
-  surface_->make_current();
+  context_->make_current();
   picture.problem = prepare(input);
   if (!picture.problem.ok()) {
     picture.report.availability.mode = Mode::removed;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/egl_surface.hpp"
+#include "platform/egl_context.hpp"
 #include "platform/scene.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
 #include "sim/methods/method.hpp"
@@ -92,7 +92,7 @@ class Session {
   [[nodiscard]] const PostLattice& lattice() const { return scene_.lattice(); }
   [[nodiscard]] int sea_cells() const { return scene_.folder().sea_count(); }
   [[nodiscard]] int idle_sea_cells() const { return scene_.folder().idle_sea_count(); }
-  [[nodiscard]] const char* driver() const { return surface_->description(); }
+  [[nodiscard]] const char* driver() const { return context_->description(); }
   [[nodiscard]] TerrainKeeper& terrain() { return scene_.terrain(); }
 
  private:
@@ -119,7 +119,7 @@ class Session {
 
   SceneOptions options_;
   GeotiffReader geotiff_;
-  std::optional<EglSurface> surface_;
+  std::optional<EglContext> context_;
   std::vector<sim::TerrainEdit> edits_;
   std::vector<ridgeline::TerrainEdit> core_edits_;
   std::vector<PostGrid> edit_grids_;

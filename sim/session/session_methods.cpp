@@ -55,7 +55,7 @@ MethodTerrain Session::method_terrain() {
 Outcome Session::prepare(const FrameInput& input) {
   if (method_ == nullptr) return {};
   if (input.availability.mode == Mode::removed || !local_frame(input.eye).ok()) return {};
-  surface_->make_current();
+  context_->make_current();
   apply_edits(static_cast<double>(input.time_ns) * 1e-9);
   scene_.settle(input.eye);
   settled_ = true;

@@ -12,7 +12,7 @@
 
 #include "config/limits.hpp"
 #include "core/frame/terrain_keeper.hpp"
-#include "platform/egl_surface.hpp"
+#include "platform/egl_context.hpp"
 #include "tests/unit/window/ground.hpp"
 
 namespace ridgeline::test {
@@ -68,10 +68,10 @@ class Kept {
         posts_(static_cast<std::size_t>(blocks * blocks) * 64 * 64),
         rests_(posts_.size()),
         keeper(port, ground.lattice(), sizes_, held_, {posts_, rests_}) {
-    auto surface = EglSurface::make();
-    EXPECT_TRUE(surface);
-    surface_ = std::move(surface).value();
-    auto made = Renderer::make({16, 16, sizes_, 64, 64}, surface_->timer_functions(),
+    auto context = EglContext::make();
+    EXPECT_TRUE(context);
+    context_ = std::move(context).value();
+    auto made = Renderer::make({16, 16, sizes_, 64, 64}, context_->timer_functions(),
                                [](std::string_view, std::string_view) {});
     EXPECT_TRUE(made);
     renderer = std::move(made).value();
@@ -110,7 +110,7 @@ class Kept {
   std::vector<HeldBlock> held_;
   std::vector<float> posts_;
   std::vector<std::int8_t> rests_;
-  std::optional<EglSurface> surface_;
+  std::optional<EglContext> context_;
   int edits_ = 0;
 
  public:

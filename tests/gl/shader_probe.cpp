@@ -50,8 +50,8 @@ void print_log(std::string_view name, std::string_view log) {
                static_cast<int>(log.size()), log.data());
 }
 
-EglSurface& surface() {
-  static Result<EglSurface> made = EglSurface::make();
+EglContext& context() {
+  static Result<EglContext> made = EglContext::make();
   if (!made) give_up("no OpenGL ES 3.1 context");
   return made.value();
 }
@@ -75,12 +75,12 @@ void put(Buffer& buffer, const Block& block, int binding) {
 }  // namespace
 
 ShaderProbe::ShaderProbe(std::string_view body) {
-  surface();
+  context();
   program_ = taken(make_compute_program("probe", source_of(body), print_log));
 }
 
 const char* ShaderProbe::driver() {
-  return surface().description();
+  return context().description();
 }
 
 void ShaderProbe::set_blocks(const FrameBlocks& blocks) {

@@ -7,7 +7,7 @@
 
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
-#include "platform/egl_surface.hpp"
+#include "platform/egl_context.hpp"
 
 namespace ridgeline::test {
 
