@@ -29,6 +29,10 @@ FileProblem Scene::open_files(const SceneSettings& settings, const GeodeticPosit
   const GeoBox near = range_box(first.latitude_deg, first.longitude_deg, settings_.frame.range_m);
   far_floor_m_ = ridgeline::far_floor_m(*folder_, near);
   if (!folder_->any_usable()) return folder_->refused().front();  // checksums are known by now
+  // Nothing stays mapped: a program that locks its memory would read in every tile. The worker
+  // chooses anew with its first order.
+  constexpr GeoBox nowhere{1e3, 0.0, 1e3, 0.0};
+  folder_->select(nowhere);
   return {};
 }
 
