@@ -67,14 +67,20 @@ std::string RenderThread::boot() {
       problem.fault != Fault::none) {
     return problem.message;
   }
+  exchange_.render_log.tell(LogLevel::note, "terrain: %d tiles, %d of them refused",
+                            static_cast<int>(scene_->folder().usable_count()) +
+                                static_cast<int>(scene_->folder().refused().size()),
+                            static_cast<int>(scene_->folder().refused().size()));
   ScreenDetail detail;
   auto screen = Screen::make(screen_settings(config_), detail);
   if (!screen) return told("screen", screen.fault(), detail.text);
   screen_ = std::move(screen).value();
+  exchange_.render_log.tell(LogLevel::note, "screen: %s", screen_->description());
   if (const Status made = scene_->open_renderer(screen_->timer_functions(), print_shader_log);
       !made) {
     return told("graphics", made.fault(), screen_->gl_description());
   }
+  exchange_.render_log.tell(LogLevel::note, "graphics: %s", screen_->gl_description());
   const FrameSettings& frame = scene_->settings();
   auto blank = make_texture(GL_RGBA8, frame.image.width_px, frame.image.height_px, 1, 4);
   if (!blank) return told("graphics", blank.fault(), screen_->gl_description());
