@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -29,7 +32,8 @@ class Installation {
  public:
   Installation() {
     std::filesystem::create_directories(folder_.file("tiles"));
-    sim::write_srtm3_tile(folder_.file("tiles"), 46, 8, hills);
+    constexpr int posts = 1201;  // 3"
+    EXPECT_TRUE(sim::write_tile_with(folder_.file("tiles"), 46, 8, posts, hills).ok());
     std::ofstream(folder_.file("flight.log")) << sim::bus_log(flight(), sim::BusGaps{});
     configure("tiles", "rig0", "rig-beat");
   }
