@@ -31,10 +31,13 @@ class RenderThread {
   /// One frame that should have begun at `due_ns`: state in, picture shown, proof out.
   void draw(std::int64_t due_ns);
 
+  /// Writes the last frame where the configuration wants it; dump_problem() then says what is wrong.
+  void dump();
+
   [[nodiscard]] Boot boot_state() const { return boot_state_.load(std::memory_order_acquire); }
   /// Domain: boot_state() is not going_on.
   [[nodiscard]] const std::string& boot_problem() const { return boot_problem_; }
-  /// Of the dump at the end; empty when it was written or not wanted. Domain: the thread has ended.
+  /// Empty when the dump was written or is not wanted. Domain: the thread has ended.
   [[nodiscard]] const std::string& dump_problem() const { return dump_problem_; }
   [[nodiscard]] Screen& screen() { return *screen_; }
   [[nodiscard]] Scene& scene() { return *scene_; }
@@ -56,7 +59,6 @@ class RenderThread {
   void judge(std::int64_t started_ns, std::int64_t finished_ns, Fault presented);
   void note_latency();
   void tell_change(const Availability& before);
-  void dump();
   void close();
 
   const DisplayConfig& config_;
