@@ -234,12 +234,14 @@ void check_lines(const toml::table& root, const DisplayConfig& config, Problems&
 }  // namespace
 
 FileResult<DisplayConfig> load_config(const std::string& path) {
+  // A folder opens like a file, and then its reading throws.
   std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    return file_problem(path, Fault::file_unreadable, "it is a folder");
+  }
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(path, ignored)) {
-    return file_problem(path, Fault::file_unreadable, {});
-  }
+  if (!stream.is_open() || stream.bad()) return file_problem(path, Fault::file_unreadable, {});
   const toml::parse_result parsed = toml::parse(text, path);
   Problems problems;
   if (!parsed) {
