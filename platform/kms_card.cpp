@@ -2,6 +2,8 @@
 
 #include <drm_fourcc.h>
 #include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 #include <xf86drm.h>
 
@@ -31,8 +33,6 @@ Fault fault_of(int error) {
     case EACCES:
     case EPERM:
       return Fault::screen_not_ours;
-    case EBUSY:
-      return Fault::screen_flip_late;
     case ENODEV:
     case ENXIO:
     case EIO:
@@ -162,12 +162,29 @@ Status KmsCard::take_monitor(const drmModeRes& resources, const drmModeConnector
     return Fault::screen_refused;
   }
   found_ = drmModeGetCrtc(file_, crtc_);
+  watch_plug(name);
   std::snprintf(description_, sizeof description_, "kms %.60s %s %dx%d %.2f Hz", settings.card,
                 name, width_px(), height_px(), refresh_hz(mode_));
   return {};
 }
 
+void KmsCard::watch_plug(const char* connector) {
+  struct stat card {};
+  if (::fstat(file_, &card) != 0) return;
+  char path[96];
+  std::snprintf(path, sizeof path, "/sys/class/drm/card%u-%s/status", minor(card.st_rdev),
+                connector);
+  plug_ = ::open(path, O_RDONLY | O_CLOEXEC);
+}
+
+bool KmsCard::plugged() const {
+  char word[16] = {};
+  if (plug_ < 0 || ::pread(plug_, word, sizeof word - 1, 0) <= 0) return true;
+  return std::strncmp(word, "disconnected", 12) != 0;
+}
+
 KmsCard::~KmsCard() {
+  if (plug_ >= 0) ::close(plug_);
   if (found_ != nullptr) {
     const bool shown = found_->mode_valid != 0 && found_->buffer_id != 0;
     drmModeSetCrtc(file_, crtc_, shown ? found_->buffer_id : 0, found_->x, found_->y,

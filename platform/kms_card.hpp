@@ -29,9 +29,12 @@ class KmsCard {
   /// had it. Errors: screen_not_ours, screen_refused, screen_lost.
   [[nodiscard]] Status set_mode(std::uint32_t buffer);
   /// Shows `buffer` from the next vertical blank on, which is told with `picture`; does not wait.
-  /// Errors: screen_flip_late (a flip is still to come), screen_not_ours, screen_refused,
+  /// Errors: screen_not_ours, screen_refused (the output is off, or a flip is still to come),
   /// screen_lost.
   [[nodiscard]] Status flip(std::uint32_t buffer, std::uint64_t picture);
+
+  /// The kernel does not say that nothing is connected any more. Cost: one system call.
+  [[nodiscard]] bool plugged() const;
 
   [[nodiscard]] int file() const { return file_; }
   [[nodiscard]] int width_px() const { return mode_.hdisplay; }
@@ -44,7 +47,10 @@ class KmsCard {
   [[nodiscard]] Status take_monitor(const drmModeRes& resources, const drmModeConnector& connector,
                                     const ScreenSettings& settings, ScreenDetail& detail);
 
+  void watch_plug(const char* connector);
+
   int file_ = -1;
+  int plug_ = -1;  ///< where the kernel says whether a monitor is connected
   std::uint32_t connector_ = 0;
   std::uint32_t crtc_ = 0;
   drmModeModeInfo mode_{};

@@ -243,6 +243,10 @@ ShownStamp KmsOutput::shown() {
 }
 
 Result<PictureTarget> KmsOutput::begin() {
+  if (!card_->plugged()) {
+    mode_set_ = false;  // what comes back may be another monitor, and is off
+    return Fault::screen_no_monitor;
+  }
   if (const Status waited = wait_shown(); !waited) return waited.fault();
   PictureTarget target;
   target.framebuffer = buffers_[static_cast<std::size_t>(free_)].framebuffer;
@@ -257,8 +261,7 @@ Status KmsOutput::show(std::uint64_t picture) {
     mode_set_ = true;
     shown_ = {picture, screen_time_ns(), 0};
   } else if (const Status asked = card_->flip(buffer, picture); !asked) {
-    // Someone else may have had the card and left it in another mode, or off.
-    mode_set_ = asked.fault() == Fault::screen_flip_late;
+    mode_set_ = false;  // someone else may have had the card and left it in another mode, or off
     return asked;
   } else {
     pending_ = picture;

@@ -29,7 +29,7 @@ struct ScreenSettings {
   const char* x_display = "";       ///< window: such as ":0"; empty: what DISPLAY says
   const char* title = "Ridgeline";  ///< window
   std::int64_t gpu_timeout_ns = 500'000'000;   ///< until a picture must be finished
-  std::int64_t flip_timeout_ns = 100'000'000;  ///< kms: until a page flip must have happened
+  std::int64_t flip_timeout_ns = 100'000'000;  ///< until the picture before must be shown
 };
 
 /// In words what make() or present() was refused: the name of the card, the modes there are, what
@@ -79,12 +79,11 @@ class Screen {
   /// Puts the picture in `colour` (RGBA8 texture of width_px() x height_px(), row 0 at the bottom)
   /// on the screen: copies it into the buffer that is not shown, waits until the GPU has finished,
   /// and asks for the flip, which may then happen later (see shown()). With a fault the screen
-  /// keeps what it showed. Errors: gl_context_lost (renew() next), gl_late, gl_error,
-  /// screen_flip_late (flip of the picture before
-  ///         has not happened; nothing is drawn), screen_not_ours, screen_refused, screen_lost,
-  ///         screen_closed, screen_small. All but gl_context_lost, screen_lost and screen_closed
-  ///         may pass: call again.
-  /// Cost:   blocks at most flip_timeout_ns + gpu_timeout_ns; no allocation.
+  /// keeps what it showed.
+  /// Passing: gl_late, gl_error, screen_flip_late (the picture before is not shown yet; nothing is
+  ///          drawn), screen_no_monitor, screen_not_ours, screen_refused, screen_small: call again.
+  /// Final:   gl_context_lost (renew() next), screen_lost, screen_closed.
+  /// Cost:    blocks at most 2 flip_timeout_ns + gpu_timeout_ns; no allocation.
   [[nodiscard]] Status present(GLuint colour);
 
   /// Waits until the picture presented last is on the screen. Errors: screen_flip_late,

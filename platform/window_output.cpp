@@ -1,6 +1,8 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <poll.h>
 #include <xcb/xcb.h>
+#include <xcb/xcbext.h>
 
 #include <array>
 #include <cstdio>
@@ -46,8 +48,8 @@ class WindowOutput final : public ScreenOutput {
   void detach() override {}
   [[nodiscard]] Result<PictureTarget> begin() override;
   [[nodiscard]] Status show(std::uint64_t picture) override;
-  [[nodiscard]] Status wait_shown() override { return gone(); }
-  [[nodiscard]] ShownStamp shown() override { return shown_; }
+  [[nodiscard]] Status wait_shown() override;
+  [[nodiscard]] ShownStamp shown() override;
   void show_failed() override;
   [[nodiscard]] int width_px() const override { return width_px_; }
   [[nodiscard]] int height_px() const override { return height_px_; }
@@ -56,8 +58,11 @@ class WindowOutput final : public ScreenOutput {
  private:
   [[nodiscard]] xcb_atom_t atom(const char* name);
   void make_window(const char* title);
+  void wait_mapped(std::int64_t timeout_ns);
   void draw_failure_picture();
   void take_events();
+  [[nodiscard]] Status ask();
+  bool take_answer();
   Status gone() {
     if (xcb_connection_has_error(server_) != 0) return Fault::screen_lost;
     return closed_ ? Fault::screen_closed : Fault::none;
@@ -75,6 +80,10 @@ class WindowOutput final : public ScreenOutput {
   bool failed_ = false;
   int width_px_ = 0, height_px_ = 0;                ///< of the picture
   int window_width_px_ = 0, window_height_px_ = 0;  ///< as the window manager has it
+  std::int64_t flip_timeout_ns_ = 0;
+  bool asked_ = false;         ///< and not answered
+  std::uint64_t pending_ = 0;  ///< number of the picture the answer will be for; 0: none
+  xcb_get_input_focus_cookie_t question_{};
   ShownStamp shown_;
   char description_[120] = {};
 };
@@ -105,9 +114,11 @@ Status WindowOutput::open(const ScreenSettings& settings, ScreenDetail& detail) 
                   static_cast<unsigned>(screen_->root_depth));
     return Fault::screen_no_mode;
   }
+  flip_timeout_ns_ = settings.flip_timeout_ns;
   width_px_ = window_width_px_ = settings.width_px;
   height_px_ = window_height_px_ = settings.height_px;
   make_window(settings.title);
+  wait_mapped(2'000'000'000);
   draw_failure_picture();
   std::snprintf(description_, sizeof description_, "x11 window %dx%d at %.60s", width_px_,
                 height_px_, told == nullptr ? "" : told);
@@ -131,10 +142,19 @@ void WindowOutput::make_window(const char* title) {
   xcb_change_property(server_, XCB_PROP_MODE_REPLACE, window_, atom("WM_PROTOCOLS"), XCB_ATOM_ATOM,
                       32, 1, &close_message_);
   xcb_map_window(server_, window_);
-  // Until it is there, what is drawn would be lost.
-  while (xcb_connection_has_error(server_) == 0) {
-    const Reply<xcb_generic_event_t> event(xcb_wait_for_event(server_));
+  xcb_flush(server_);
+}
+
+/// Until the window is there, what is drawn would be lost. Not for ever: a window manager may keep
+/// it hidden, and show it later with the picture of then.
+void WindowOutput::wait_mapped(std::int64_t timeout_ns) {
+  const std::int64_t deadline_ns = screen_time_ns() + timeout_ns;
+  while (xcb_connection_has_error(server_) == 0 && screen_time_ns() < deadline_ns) {
+    const Reply<xcb_generic_event_t> event(xcb_poll_for_event(server_));
     if (event != nullptr && (event->response_type & 0x7f) == XCB_MAP_NOTIFY) return;
+    if (event != nullptr) continue;
+    pollfd told{xcb_get_file_descriptor(server_), POLLIN, 0};
+    ::poll(&told, 1, 50);
   }
 }
 
@@ -196,9 +216,51 @@ void WindowOutput::take_events() {
   }
 }
 
-Result<PictureTarget> WindowOutput::begin() {
+/// The server answers in order: with the answer it has also shown what was sent before.
+Status WindowOutput::ask() {
+  question_ = xcb_get_input_focus(server_);
+  asked_ = true;
+  return xcb_flush(server_) > 0 ? Fault::none : Fault::screen_lost;
+}
+
+bool WindowOutput::take_answer() {
+  void* reply = nullptr;
+  xcb_generic_error_t* error = nullptr;
+  if (xcb_poll_for_reply(server_, question_.sequence, &reply, &error) == 0) return false;
+  std::free(reply);
+  std::free(error);
+  if (xcb_connection_has_error(server_) != 0) return false;
+  asked_ = false;
+  if (pending_ != 0) shown_ = {pending_, screen_time_ns(), 0};
+  pending_ = 0;
+  return true;
+}
+
+ShownStamp WindowOutput::shown() {
+  if (asked_) take_answer();
+  return shown_;
+}
+
+Status WindowOutput::wait_shown() {
+  const std::int64_t deadline_ns = screen_time_ns() + flip_timeout_ns_;
   take_events();
-  if (const Status lost = gone(); !lost) return lost.fault();
+  while (asked_ && !take_answer()) {
+    if (const Status lost = gone(); !lost) return lost;
+    const std::int64_t left_ns = deadline_ns - screen_time_ns();
+    if (left_ns <= 0) return Fault::screen_flip_late;
+    const timespec left{left_ns / 1'000'000'000, left_ns % 1'000'000'000};
+    pollfd told{xcb_get_file_descriptor(server_), POLLIN, 0};
+    ::ppoll(&told, 1, &left, nullptr);
+  }
+  return gone();
+}
+
+Result<PictureTarget> WindowOutput::begin() {
+  if (const Status waited = wait_shown(); !waited) return waited.fault();
+  // Asked once more, now: the driver will ask the server for the window's size and wait without
+  // end.
+  if (const Status asked = ask(); !asked) return asked.fault();
+  if (const Status waited = wait_shown(); !waited) return waited.fault();
   if (window_width_px_ < width_px_ || window_height_px_ < height_px_) return Fault::screen_small;
   PictureTarget target;
   target.x = (window_width_px_ - width_px_) / 2;
@@ -213,9 +275,8 @@ Status WindowOutput::show(std::uint64_t picture) {
     failed_ = false;
   }
   if (const Status swapped = context_->swap(); !swapped) return swapped;
-  if (xcb_flush(server_) <= 0) return Fault::screen_lost;
-  shown_ = {picture, screen_time_ns(), 0};
-  return {};
+  pending_ = picture;
+  return ask();
 }
 
 void WindowOutput::show_failed() {

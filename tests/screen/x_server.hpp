@@ -1,0 +1,53 @@
+#pragma once
+#include <sys/types.h>
+#include <xcb/xcb.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ridgeline::test {
+
+/// An X11 server of this test's own, without a monitor (Xvfb), and a second client to look at it.
+class XServer {
+ public:
+  /// 640x480, 24 bits a pixel, at a free display number.
+  XServer();
+  XServer(const XServer&) = delete;
+  XServer& operator=(const XServer&) = delete;
+  ~XServer();
+
+  [[nodiscard]] const char* name() const { return name_.c_str(); }
+  void kill();
+  void stop() const;
+  void go_on() const;
+
+  /// The only window; what is in it, row by row from the top, as 0x??RRGGBB.
+  struct Pixels {
+    int width_px = 0, height_px = 0;
+    std::vector<std::uint32_t> rows;
+    [[nodiscard]] std::uint32_t at(int x, int y) const {
+      return rows[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                  static_cast<std::size_t>(x)] &
+             0xFFFFFF;
+    }
+  };
+  [[nodiscard]] Pixels window_pixels();
+  /// A pixel of the window has this colour within a second; for what was asked without an answer.
+  [[nodiscard]] bool becomes(int x, int y, std::uint32_t colour);
+  void resize_window(int width_px, int height_px);
+  /// What a window manager does when someone closes the window.
+  void ask_to_close();
+  /// Covers the window and uncovers it again.
+  void cover_window();
+
+ private:
+  xcb_window_t window();
+  void settle();
+  pid_t process_ = -1;
+  std::string name_;
+  xcb_connection_t* client_ = nullptr;
+  const xcb_screen_t* screen_ = nullptr;
+};
+
+}  // namespace ridgeline::test
