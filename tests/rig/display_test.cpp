@@ -39,20 +39,21 @@ class Installation {
   }
 
   void configure(const std::string& terrain, const std::string& bus, const std::string& beat) {
-    std::ofstream(folder_.file("rig.toml"))
-        << "[picture]\nwidth_px = 64\nheight_px = 48\nhorizontal_field_of_view_deg = 60\n"
-        << "rate_hz = 1\nrange_km = 8\n"
-        << "[screen]\nkind = \"surfaceless\"\n"
-        << "[terrain]\nfolder = \"" << terrain << "\"\ngeoid = \"none\"\n"
-        << "home_latitude_deg = 46.5\nhome_longitude_deg = 8.5\n"
-        << "[bus]\ninterfaces = [\"" << bus << "\"]\nprotocol = \"canaerospace\"\n"
-        << "heading_reference = \"unknown\"\nnode_id = 12\n"
-        << "[timeouts]\nattitude_ms = 3000\nheading_ms = 3000\nposition_ms = 6000\n"
-        << "height_ms = 6000\npicture_ms = 9000\nheartbeat_input_ms = 3000\n"
-        << "[lines]\nheartbeat = \"" << beat << "\"\nsvs_valid = \"rig-valid\"\n"
-        << "svs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n"
-        << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = 1\n"
-        << "last_frame_folder = \"last\"\n";
+    write(
+        "[picture]\nwidth_px = 64\nheight_px = 48\nhorizontal_field_of_view_deg = 60\n"
+        "rate_hz = 1\nrange_km = 8\n[screen]\nkind = \"surfaceless\"\n"
+        "[timeouts]\nattitude_ms = 3000\nheading_ms = 3000\nposition_ms = 6000\n"
+        "height_ms = 6000\npicture_ms = 9000\nheartbeat_input_ms = 3000\n",
+        terrain, bus, beat);
+  }
+  /// The smallest mode of the simulated card, as slow as it has to be in emulation.
+  void configure_monitor() {
+    write(
+        "[picture]\nwidth_px = 640\nheight_px = 480\nhorizontal_field_of_view_deg = 60\n"
+        "rate_hz = 0.1\nrange_km = 4\n[screen]\nkind = \"kms\"\ncard = \"/dev/dri/card0\"\n"
+        "[timeouts]\nattitude_ms = 10000\nheading_ms = 10000\nposition_ms = 10000\n"
+        "height_ms = 10000\npicture_ms = 10000\nheartbeat_input_ms = 10000\n",
+        "tiles", "rig0", "rig-beat");
   }
 
   [[nodiscard]] std::vector<std::string> program() const {
@@ -69,6 +70,18 @@ class Installation {
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
 
  private:
+  void write(const std::string& picture, const std::string& terrain, const std::string& bus,
+             const std::string& beat) {
+    std::ofstream(folder_.file("rig.toml"))
+        << picture << "[terrain]\nfolder = \"" << terrain << "\"\ngeoid = \"none\"\n"
+        << "home_latitude_deg = 46.5\nhome_longitude_deg = 8.5\n"
+        << "[bus]\ninterfaces = [\"" << bus << "\"]\nprotocol = \"canaerospace\"\n"
+        << "heading_reference = \"unknown\"\nnode_id = 12\n"
+        << "[lines]\nheartbeat = \"" << beat << "\"\nsvs_valid = \"rig-valid\"\n"
+        << "svs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n"
+        << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = 1\n"
+        << "last_frame_folder = \"last\"\n";
+  }
   static double hills(double latitude_deg, double longitude_deg) {
     return 800.0 + 300.0 * std::sin(latitude_deg * 400.0) * std::cos(longitude_deg * 300.0);
   }
@@ -178,6 +191,25 @@ TEST_F(RigDisplay, a_chip_lost_in_flight_stops_the_heartbeat_and_the_flight_goes
   EXPECT_TRUE(program.runs());
   program.signal(SIGTERM);
   EXPECT_EQ(program.status(soon_s), 0) << program.told();
+}
+
+TEST_F(RigDisplay, a_monitor_shows_the_flight) {
+  if (!std::filesystem::exists("/dev/dri/card0")) GTEST_SKIP() << "this kernel has no card";
+  installed_.configure_monitor();
+  chip_.pull(display_on, true);
+  Process program(installed_.program(), installed_.file("errors"));
+  Process player(installed_.player(), installed_.file("player"));
+  ASSERT_TRUE(booted(program)) << program.told();
+  EXPECT_EQ(program.times_told("screen: kms /dev/dri/card0"), 1) << program.told();
+  ASSERT_TRUE(lines_say(true, false)) << program.told();
+  EXPECT_TRUE(within(soon_s, [&] {
+    const nlohmann::json status = installed_.status();
+    return status.is_object() && status["latency_ms"]["count"] > 0;
+  })) << "no page flip has told when the picture was shown";
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.status(soon_s), 0) << program.told();
+  EXPECT_EQ(installed_.status()["frames"]["present_faults"], 0) << program.told();
+  std::cout << program.told();
 }
 
 void expect_refused(const Installation& installed, const std::string& words) {
