@@ -12,7 +12,8 @@
 namespace ridgeline {
 namespace {
 
-constexpr int wait_ms = 10;  ///< longest; also how soon a stop is seen
+constexpr int wait_ms = 10;        ///< longest; also how soon a stop is seen
+constexpr int most_batches = 128;  ///< a round: more than a receive buffer for 250 ms holds
 
 }  // namespace
 
@@ -49,7 +50,7 @@ void BusThread::round() {
     waiting[bus] = {buses_[bus].descriptor(), POLLIN, 0};
   }
   ::poll(waiting.data(), buses_.size(), wait_ms);
-  for (;;) {
+  for (int batch = 0; batch < most_batches; ++batch) {
     const std::span<const ReceivedFrame> received = buses_.receive();
     tell_faults();
     take(received);

@@ -1,5 +1,6 @@
 #include "platform/display/supervisor.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace ridgeline {
@@ -57,7 +58,9 @@ void Supervisor::read_lines(std::int64_t now_ns) {
 
 void Supervisor::take_frame(std::int64_t now_ns) {
   const std::int64_t limit_ns = config_.timeouts.heartbeat_input_ms * limits::ms_ns;
-  const HeartbeatStep step = next_heartbeat(status_.heartbeat, frame_.proof, now_ns, limit_ns);
+  // It may have been finished after this round began; it is judged now, not then.
+  const std::int64_t judged_ns = std::max(now_ns, frame_.proof.finished_ns);
+  const HeartbeatStep step = next_heartbeat(status_.heartbeat, frame_.proof, judged_ns, limit_ns);
   status_.heartbeat = step.next;
   // Frames come faster than values of some buses: no input newer is no change worth a line.
   const bool quiet = step.refusal == HeartbeatRefusal::input_not_new;

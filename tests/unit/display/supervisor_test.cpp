@@ -103,6 +103,13 @@ TEST_F(SupervisorTest, a_frozen_input_ends_the_heartbeat_though_frames_go_on) {
   EXPECT_EQ(status().heartbeat.refusals[static_cast<std::size_t>(input_not_new)], 18u);
 }
 
+TEST_F(SupervisorTest, a_frame_finished_during_the_round_is_not_one_of_the_future) {
+  fact_.proof = {1, 20 * ms, 40 * ms, 34 * ms, true, true};
+  exchange_->frame.write(fact_);
+  supervisor_->round(33 * ms);
+  EXPECT_EQ(status().heartbeat.edges, 1u);
+}
+
 TEST_F(SupervisorTest, removed_terrain_and_pictures_not_shown_are_failures) {
   frame(33 * ms);
   fact_.availability.mode = Mode::removed;
