@@ -31,7 +31,8 @@ class RenderThread {
   /// One frame that should have begun at `due_ns`: state in, picture shown, proof out.
   void draw(std::int64_t due_ns);
 
-  /// Writes the last frame where the configuration wants it; dump_problem() then says what is wrong.
+  /// Writes the last frame where the configuration wants it; dump_problem() then says what is
+  /// wrong.
   void dump();
 
   [[nodiscard]] Boot boot_state() const { return boot_state_.load(std::memory_order_acquire); }
