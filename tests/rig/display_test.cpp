@@ -25,7 +25,7 @@ using rig::within;
 // Lines of the simulated chip, by their place.
 constexpr int heartbeat = 0, svs_valid = 1, svs_fail = 2, display_on = 3;
 // An emulated machine on a busy one: nothing here is about how long things take.
-constexpr int boot_s = 400, soon_s = 60;
+constexpr int boot_s = 600, soon_s = 60;
 
 /// Hills under a flight that turns over them, its configuration, and what it leaves behind.
 class Installation {
