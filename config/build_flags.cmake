@@ -8,6 +8,10 @@ target_compile_options(ridgeline_flags INTERFACE
   $<$<BOOL:${RL_WERROR}>:-Werror>)
 if(RL_SANITIZE)
   target_compile_options(ridgeline_flags INTERFACE -fsanitize=${RL_SANITIZE} -fno-omit-frame-pointer)
+  if(RL_FUZZ)
+    # What a sanitizer finds is a failed run, not a line in its output.
+    target_compile_options(ridgeline_flags INTERFACE -fno-sanitize-recover=all)
+  endif()
   target_link_options(ridgeline_flags INTERFACE -fsanitize=${RL_SANITIZE})
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)

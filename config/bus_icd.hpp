@@ -70,6 +70,7 @@ enum class BusParameter : std::uint8_t {
   true_airspeed,
   calibrated_airspeed,
   heading,
+  standard_altitude,
   gps_latitude,
   gps_longitude,
   gps_height,
@@ -81,12 +82,13 @@ enum class BusParameter : std::uint8_t {
   ins_ground_speed,
   ins_true_track,
   magnetic_heading,
+  radio_height,
   magnetic_variation,
   true_heading,
   utc,
   date,
 };
-inline constexpr std::size_t bus_parameter_count = 25;
+inline constexpr std::size_t bus_parameter_count = 27;
 
 /// Unit of a decoded value. Degrees of `wraps` rows are brought into [-180, 180).
 enum class BusUnit : std::uint8_t { deg, deg_per_s, m, m_per_s, s_of_day, days_since_1970 };
@@ -130,6 +132,7 @@ inline constexpr BusQuantity body_rate{BusUnit::deg_per_s, analogue, float32, -7
 inline constexpr BusQuantity pitch_angle{BusUnit::deg, analogue, float32, -90.0, 90.0, true};
 inline constexpr BusQuantity angle{BusUnit::deg, analogue, float32, -180.0, 180.0, true};
 inline constexpr BusQuantity height{BusUnit::m, analogue, float32, -1500.0, 30000.0, false};
+inline constexpr BusQuantity radio{BusUnit::m, analogue, float32, -50.0, 10000.0, false};
 inline constexpr BusQuantity climb{BusUnit::m_per_s, analogue, float32, -300.0, 300.0, false};
 inline constexpr BusQuantity speed{BusUnit::m_per_s, analogue, float32, 0.0, 600.0, false};
 inline constexpr BusQuantity gps_lat{BusUnit::deg, gps_types, int32, -90.0, 90.0, false};
@@ -160,6 +163,7 @@ inline constexpr std::array<BusIcdRow, bus_parameter_count> rows = {{
   {316, true_airspeed, "true_airspeed", q::speed, 10.0, t::air_data_timeout_ns},
   {317, calibrated_airspeed, "calibrated_airspeed", q::speed, 10.0, t::air_data_timeout_ns},
   {321, heading, "heading", q::angle, 80.0, t::heading_timeout_ns},
+  {322, standard_altitude, "standard_altitude", q::height, 10.0, t::height_timeout_ns},
   {1036, gps_latitude, "gps_latitude", q::gps_lat, 10.0, t::position_timeout_ns},
   {1037, gps_longitude, "gps_longitude", q::gps_lon, 10.0, t::position_timeout_ns},
   {1038, gps_height, "gps_height", q::height, 10.0, t::height_timeout_ns},
@@ -171,6 +175,7 @@ inline constexpr std::array<BusIcdRow, bus_parameter_count> rows = {{
   {1052, ins_ground_speed, "ins_ground_speed", q::speed, 0.0, t::velocity_timeout_ns},
   {1053, ins_true_track, "ins_true_track", q::angle, 0.0, t::velocity_timeout_ns},
   {1069, magnetic_heading, "magnetic_heading", q::angle, 0.0, t::heading_timeout_ns},
+  {1070, radio_height, "radio_height", q::radio, 0.0, t::radio_height_timeout_ns},
   {1121, magnetic_variation, "magnetic_variation", q::angle, 0.0, t::variation_timeout_ns},
   {1133, true_heading, "true_heading", q::angle, 0.0, t::heading_timeout_ns},
   {1200, utc, "utc", q::clock, 0.0, t::clock_timeout_ns},

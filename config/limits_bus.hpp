@@ -21,6 +21,8 @@ inline constexpr std::int64_t heading_timeout_ns = 300 * ms_ns;
 inline constexpr std::int64_t position_timeout_ns = 2 * second_ns;
 /// Height: 0.3 g of unknown vertical acceleration is 6 m in 2 s.
 inline constexpr std::int64_t height_timeout_ns = 2 * second_ns;
+/// Radio height is only compared: ten intervals of a radio altimeter at 10 Hz.
+inline constexpr std::int64_t radio_height_timeout_ns = 1 * second_ns;
 /// Speed, track and vertical speed only feed the extrapolation: three intervals at 10 Hz, rounded
 /// up so that one lost frame of a 2 Hz receiver does not stop it.
 inline constexpr std::int64_t velocity_timeout_ns = 1 * second_ns;
@@ -69,6 +71,129 @@ inline constexpr std::uint8_t position_persist_count = 5;
 
 /// Extrapolation divides by cos(latitude): none this close to the poles.
 inline constexpr double extrapolation_latitude_limit_deg = 89.5;
+
+/// Speed of a sole receiver and altitude rate: 3 g, and the noise of a rate that is differentiated.
+inline constexpr double ground_speed_rate_limit_mps2 = 30.0;
+inline constexpr double altitude_rate_rate_limit_mps2 = 30.0;
+inline constexpr double velocity_jump_slack_mps = 15.0;
+
+// Integrity: how far two sources may differ, for how long, and what is forgiven. docs/icd.md,
+// section 10, has the table; docs/adr/0017 the policy.
+
+/// Two senders of one attitude. Instruments of this class are good to 2 degrees each, vibration and
+/// mounting to 1 more each: 6 in all; pitch is mounted by the same rail, 5. The rate term covers
+/// that their samples are of different times, up to a brisk manoeuvre.
+inline constexpr double roll_disagree_deg = 6.0;
+inline constexpr double roll_disagree_dps = 90.0;
+inline constexpr double pitch_disagree_deg = 5.0;
+inline constexpr double pitch_disagree_dps = 45.0;
+/// Two senders of one heading: slaved gyros are good to 3 degrees, magnetometers to 5.
+inline constexpr double heading_disagree_deg = 10.0;
+inline constexpr double heading_disagree_dps = 90.0;
+/// Headings of different kinds (true, and magnetic plus variation): besides, 5 degrees of variation
+/// model and 5 of deviation.
+inline constexpr double heading_kinds_disagree_deg = 20.0;
+/// Two receivers of one constellation differ by less than 15 m in 95 of 100 cases; three times that
+/// each. The rate term is the distance flown between their fixes at the fastest this display is
+/// for.
+inline constexpr double fix_disagree_m = 90.0;
+inline constexpr double fix_disagree_mps = position_speed_limit_mps;
+/// Vertically receivers are half as good again; heights are of the ellipsoid, so no model differs.
+inline constexpr double height_disagree_m = 50.0;
+inline constexpr double height_disagree_mps = height_speed_limit_mps;
+/// Attitude and heading: as long as an attitude may age. Fixes: five of a 10 Hz receiver.
+inline constexpr std::int64_t attitude_disagree_ns = 300 * ms_ns;
+inline constexpr std::int64_t position_disagree_ns = 500 * ms_ns;
+/// A contradiction ends after the sources have agreed for this long.
+inline constexpr std::int64_t agree_again_ns = 2 * second_ns;
+
+/// A fix against its own speed and track: 60 m is a satellite change of a receiver (50 m) and its
+/// noise. Forgiven: 3 m/s of noise and wind-up in turns, and 6 % of the speed, 3 degrees of track.
+inline constexpr double reckoned_limit_m = 60.0;
+inline constexpr double reckoned_forgiven_mps = 3.0;
+inline constexpr double reckoned_forgiven_of_speed = 0.06;
+/// A height against the altitude rate: a barometric rate lags by up to 2 s, 20 m after a change of
+/// 10 m/s; 10 m of receiver noise. Forgiven: 1.5 m/s (300 ft/min) of error, and 10 % of the climb
+/// (air 30 K off the standard atmosphere).
+inline constexpr double climbed_limit_m = 30.0;
+inline constexpr double climbed_forgiven_mps = 1.5;
+inline constexpr double climbed_forgiven_of_rate = 0.10;
+/// A height against standard altitude: their difference is the weather's and the geoid's, so only
+/// its change counts. 60 m: receiver noise, and the error of the static port at another speed and
+/// sideslip. Forgiven: 0.5 m/s (a front of 2 hPa in 50 km at 100 m/s is 0.03 m/s, the rest is
+/// slack), and 12 % of the climb.
+inline constexpr double barometer_limit_m = 60.0;
+inline constexpr double barometer_forgiven_mps = 0.5;
+inline constexpr double barometer_forgiven_of_rate = 0.12;
+/// GPS against INS: an INS drifts by 2 NM an hour (1 m/s), in Schuler swings twice that. 150 m: its
+/// fixes come unsteadily, up to a second late, and are carried on.
+inline constexpr double receivers_limit_m = 150.0;
+inline constexpr double receivers_forgiven_mps = 2.0;
+/// Their heights: an inertial height is held by the barometer.
+inline constexpr double receiver_heights_limit_m = barometer_limit_m;
+/// A contradiction that does not latch is never more than so many limits away from forgiven: a
+/// minute at most.
+inline constexpr double drift_cap = 3.0;
+/// Of two values that are compared, how old either may be: half a second is 25 m at 50 m/s.
+inline constexpr std::int64_t compared_age_ns = 500 * ms_ns;
+/// After a longer pause a comparison begins anew: what moved meanwhile is not known.
+inline constexpr std::int64_t watch_restart_ns = 5 * second_ns;
+/// A comparison is one of the present as long as a position is.
+inline constexpr std::int64_t watch_present_ns = position_timeout_ns;
+/// How long a contradiction outlives a source that has fallen silent: nobody knows which was right.
+inline constexpr std::int64_t contradiction_memory_ns = 10 * second_ns;
+static_assert(agree_again_ns < contradiction_memory_ns);
+
+/// The same bits for at least so long. Attitudes are measured anew 10 times a second or more and
+/// are never twice alike; but recorders round to whole degrees, and senders hold a value at the end
+/// of its range: in three recorded flights (14 h) never for so long while the others moved.
+/// Receivers of 1 Hz are repeated for 0.9 s.
+inline constexpr std::int64_t attitude_freeze_ns = 2 * second_ns;
+inline constexpr std::int64_t pitch_freeze_ns = 6 * second_ns;
+inline constexpr std::int64_t position_freeze_ns = 1'500 * ms_ns;
+/// And meanwhile the others have moved by so much: a turn that the roll does not explain, a flight
+/// path angle that changed, a track that turned; two posts of 1"; half a storey of 30 m.
+inline constexpr double roll_freeze_deg = 10.0;
+inline constexpr double pitch_freeze_deg = 7.0;
+inline constexpr double heading_freeze_deg = 6.0;
+inline constexpr double fix_freeze_m = 25.0;
+inline constexpr double height_freeze_m = 15.0;
+/// What the others moved is forgotten over this time: wind leaves 20 % of a turn unexplained, which
+/// in a standard-rate turn of a source without any noise is 7 degrees in 12 s.
+inline constexpr std::int64_t freeze_window_ns = 12 * second_ns;
+/// Below this speed (30 kt) tracks and flight path angles are noise.
+inline constexpr double least_speed_mps = 15.0;
+/// Above this pitch or bank a turn is not explained by the bank: 10 % of speed and 2 degrees of
+/// bank are too much of it.
+inline constexpr double steep_deg = 45.0;
+/// Steeper flight paths than this come from noise at low speed.
+inline constexpr double steep_path_deg = 20.0;
+
+/// Steps of one in a row after which a sender counts its messages: one in 2^24 by chance.
+inline constexpr std::uint8_t sequence_learn_count = 3;
+/// Refused frames in a row, counting among themselves, after which the sender has begun anew: 100
+/// ms at 80 Hz, 0.8 s at 10 Hz; below the age at which the value is stale.
+inline constexpr std::uint8_t sequence_restart_count = 8;
+/// CAN itself may deliver a frame twice after a fault in its last bit; three in a second are no
+/// such fault.
+inline constexpr std::uint8_t replay_count = 3;
+inline constexpr std::int64_t replay_window_ns = 1 * second_ns;
+inline constexpr std::int64_t replay_hold_ns = 2 * second_ns;
+/// UTC on the bus is whole seconds and up to a second late; 2.5 s are neither that nor a leap
+/// second.
+inline constexpr double clock_step_s = 2.5;
+/// How long events that are over stay on the screen: long enough to be read.
+inline constexpr std::int64_t clock_hold_ns = 5 * second_ns;
+inline constexpr std::int64_t jump_hold_ns = 10 * second_ns;
+
+/// Radio height against the height over the drawn ground, m: terrain is good to 30 m (Area 1),
+/// trees and buildings stand 40 m high; 15 % is the slope that the antenna sees to its side. For 2
+/// s: a cliff or a tower passes by in less.
+inline constexpr double radio_disagree_m = 70.0;
+inline constexpr double radio_disagree_share = 0.15;
+inline constexpr std::int64_t radio_disagree_ns = 2 * second_ns;
+/// Radio altimeters measure up to 2500 ft.
+inline constexpr double radio_height_limit_m = 762.0;
 
 /// Longest time the bus thread may be held up without losing a frame: a disk that hangs, a page
 /// that comes late. Of a bus that is full of the shortest frames (47 bits) at 1 Mbit/s.

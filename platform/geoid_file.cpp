@@ -21,6 +21,7 @@ namespace {
 
 constexpr double largest_undulation_m = 200.0;
 constexpr int largest_side = 50000;
+constexpr double smallest_step_deg = 1e-4;  // 0.36": a tenth of the finest grids there are
 constexpr float gtx_no_data = -88.8888F;
 constexpr float unknown_m = std::numeric_limits<float>::quiet_NaN();
 
@@ -69,7 +70,7 @@ std::string_view without_blanks(std::string_view text) {
 // `# Key value`; keys that say nothing about the numbers are passed over.
 void read_comment(std::string_view line, PgmHeader& header) {
   const std::string_view text = without_blanks(line.substr(1));
-  const std::size_t blank = text.find_first_of(" \t");
+  const std::size_t blank = text.find_first_of(" \t\r\v\f");
   if (blank == std::string_view::npos) return;
   const std::string_view key = text.substr(0, blank);
   const std::string_view value = without_blanks(text.substr(blank));
@@ -100,7 +101,8 @@ std::optional<PgmHeader> pgm_header(std::string_view text) {
   const std::optional<int> columns = number<int>(sides.substr(0, blank));
   const std::optional<int> rows = number<int>(without_blanks(sides.substr(blank)));
   if (!columns.has_value() || !rows.has_value()) return std::nullopt;
-  if (without_blanks(next_line(text, at)) != "65535") return std::nullopt;
+  // Exactly: one blank ends this number, what follows it are samples.
+  if (next_line(text, at) != "65535") return std::nullopt;
   header.columns = *columns;
   header.rows = *rows;
   header.size_bytes = at;
@@ -162,8 +164,8 @@ FileResult<GeoidFile> parsed_pgm(const std::string& path, std::span<const std::b
 
 bool sane_georeference(const GeoidGrid& grid) {
   return grid.south_deg >= -90.0 && grid.west_deg >= -360.0 && grid.west_deg <= 360.0 &&
-         grid.latitude_step_deg > 0 && grid.longitude_step_deg > 0 &&
-         sane_sides(grid.rows, grid.columns) &&
+         grid.latitude_step_deg >= smallest_step_deg &&
+         grid.longitude_step_deg >= smallest_step_deg && sane_sides(grid.rows, grid.columns) &&
          grid.south_deg + (grid.rows - 1) * grid.latitude_step_deg <= 90.0 + 1e-6 &&
          (grid.columns - 1) * grid.longitude_step_deg <= 360.0 + 1e-6;
 }
@@ -227,7 +229,10 @@ FileResult<GeoidFile> load_geoid(const std::string& path) {
   if (path == "none") return GeoidFile();
   const Result<MappedFile> mapping = MappedFile::open(path.c_str());
   if (!mapping.ok()) return file_problem(path, Fault::geoid_unreadable, std::strerror(errno));
-  const std::span<const std::byte> bytes = mapping.value().bytes();
+  return geoid_in(path, mapping.value().bytes());
+}
+
+FileResult<GeoidFile> geoid_in(const std::string& path, std::span<const std::byte> bytes) {
   if (has_gtx_extension(path)) return parsed_gtx(path, bytes);
   const bool pgm = bytes.size() >= 2 && bytes[0] == std::byte{'P'} && bytes[1] == std::byte{'5'};
   if (pgm) return parsed_pgm(path, bytes);

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,5 +35,8 @@ class GeoidFile {
 /// Cost:   boot time only; 4 bytes of heap a post.
 /// Source: GeographicLib 2.1.2 manual, "Geoid height"; PROJ 9.1 manual, "Vertical grids: GTX".
 FileResult<GeoidFile> load_geoid(const std::string& path);
+
+/// The geoid in the bytes of a file named `path`, whose ending tells a GTX grid; as load_geoid().
+FileResult<GeoidFile> geoid_in(const std::string& path, std::span<const std::byte> bytes);
 
 }  // namespace ridgeline

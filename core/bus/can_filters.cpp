@@ -1,20 +1,12 @@
 #include "core/bus/can_filters.hpp"
 
-#include "core/bus/canaerospace.hpp"
-#include "core/bus/canfix.hpp"
+#include "config/bus_icd.hpp"
+#include "config/canfix_icd.hpp"
 
 namespace ridgeline {
 namespace {
 
-constexpr std::uint32_t standard_id_count = 2048;
 constexpr std::uint32_t node_service_request_id = 128;  ///< channel 0: IDS and NSS
-
-BusFrame standard_frame(std::uint32_t id) {
-  BusFrame frame;
-  frame.id = id;
-  frame.length = 8;
-  return frame;
-}
 
 void add_canaerospace(CanFilters& filters, const BusProfile& profile) {
   filters.push_back({node_service_request_id, false});
@@ -23,9 +15,7 @@ void add_canaerospace(CanFilters& filters, const BusProfile& profile) {
     const ChannelOffsets& offsets = profile.channel_offsets;
     if (offsets.count > 0 && channel >= offsets.count) return;
     const std::uint32_t offset = offsets.count > 0 ? offsets.offset[channel] : channel << 16;
-    for (std::uint32_t id = 0; id < standard_id_count; ++id) {
-      if (icd_row_of(standard_frame(id)) != nullptr) filters.push_back({offset + id, offset != 0});
-    }
+    for (const BusIcdRow& row : bus_icd) filters.push_back({offset + row.id, offset != 0});
   }
 }
 
@@ -44,9 +34,7 @@ Result<CanFilters> can_filters(const BusProfile& profile) {
       }
       break;
     case BusProtocol::canfix:
-      for (std::uint32_t id = 0; id < standard_id_count; ++id) {
-        if (canfix_row_of(standard_frame(id)) != nullptr) filters.push_back({id, false});
-      }
+      for (const CanfixRow& row : canfix_icd) filters.push_back({row.id, false});
       break;
   }
   if (filters.refused_count() > 0) return Fault::capacity_exceeded;

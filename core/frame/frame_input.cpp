@@ -2,10 +2,10 @@
 
 namespace ridgeline {
 
-FrameInput frame_input(const OwnshipPose& pose, std::int64_t time_ns) {
+FrameInput frame_input(const OwnshipPose& pose, const GroundCheck& ground, std::int64_t time_ns) {
   FrameInput input;
   input.time_ns = time_ns;
-  input.availability = availability(pose);
+  input.availability = availability(pose, ground);
   if (has_value(pose.latitude_deg)) {
     input.eye = {pose.latitude_deg.value, pose.longitude_deg.value, pose.height_m.value};
   }

@@ -169,6 +169,7 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   }
   if (report.window.known_posts == 0) return removed(report, Reason::terrain_missing);
   const Clearance clearance = terrain.clearance(input.eye);
+  report.over_ground_m = clearance.over_m;
   if (clearance.kind == Clearance::Kind::below) return removed(report, Reason::below_terrain);
   if (clearance.kind == Clearance::Kind::undecided) return removed(report, Reason::terrain_loading);
 

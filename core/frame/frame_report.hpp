@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/frame/terrain_keeper.hpp"
 #include "core/geo/camera.hpp"
@@ -25,6 +26,8 @@ struct FrameReport {
   int rays = 0;          ///< of the picture: one a block of pixels
   double shared_px = 0;  ///< largest distance of a pixel from its ray
   WindowSummary window;
+  /// Of the eye over the known ground straight below; NaN where that is unknown or none was drawn.
+  double over_ground_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the GPU counted and how long it took; read where the frame is waited for anyway.

@@ -167,6 +167,7 @@ Clearance TerrainKeeper::near_clearance(const GeodeticPosition& eye) const {
   const double below = height_below_m(eye_column_, eye_row_);
   const double over = eye.height_m - below;
   Clearance result;
+  result.over_m = over;
   result.kind = over + residual <= least_height_m ? Clearance::Kind::below : Clearance::Kind::above;
   const double nearest_m = std::min(nine.distance_m, others.distance_m);
   result.distance_m = std::max(nearest_m - residual, least_clearance_m);

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <span>
 
 #include "core/geo/local_frame.hpp"
@@ -22,7 +23,9 @@ struct WindowSummary {
 struct Clearance {
   enum class Kind : std::uint8_t { above, below, undecided };
   Kind kind = Kind::undecided;  ///< undecided: too little terrain has arrived below the eye
-  double distance_m = 0;        ///< lower bound on the distance to the known surface, at least 1 mm
+  /// Of the eye over the known surface straight below, NaN where that is unknown.
+  double over_m = std::numeric_limits<double>::quiet_NaN();
+  double distance_m = 0;  ///< lower bound on the distance to the known surface, at least 1 mm
   /// What is drawn near the eye, the nine cells round it (NearGround) left out where they are drawn
   /// about the eye itself: lower bound on its distance, and the largest of its cells' differences
   /// of heights over their distances.

@@ -27,15 +27,21 @@ struct ValueReasons {
   Reason stale;
   Reason implausible;
   Reason invalid;
+  Reason frozen;
+  Reason disagrees;
 };
-constexpr ValueReasons attitude_reasons{Reason::attitude_missing, Reason::attitude_stale,
-                                        Reason::attitude_implausible, Reason::attitude_invalid};
-constexpr ValueReasons heading_reasons{Reason::heading_missing, Reason::heading_stale,
-                                       Reason::heading_implausible, Reason::heading_invalid};
-constexpr ValueReasons position_reasons{Reason::position_missing, Reason::position_stale,
-                                        Reason::position_implausible, Reason::position_invalid};
-constexpr ValueReasons height_reasons{Reason::height_missing, Reason::height_stale,
-                                      Reason::height_implausible, Reason::height_invalid};
+constexpr ValueReasons attitude_reasons{Reason::attitude_missing,     Reason::attitude_stale,
+                                        Reason::attitude_implausible, Reason::attitude_invalid,
+                                        Reason::attitude_frozen,      Reason::attitude_disagrees};
+constexpr ValueReasons heading_reasons{Reason::heading_missing,     Reason::heading_stale,
+                                       Reason::heading_implausible, Reason::heading_invalid,
+                                       Reason::heading_frozen,      Reason::heading_disagrees};
+constexpr ValueReasons position_reasons{Reason::position_missing,     Reason::position_stale,
+                                        Reason::position_implausible, Reason::position_invalid,
+                                        Reason::position_frozen,      Reason::position_disagrees};
+constexpr ValueReasons height_reasons{Reason::height_missing,     Reason::height_stale,
+                                      Reason::height_implausible, Reason::height_invalid,
+                                      Reason::height_frozen,      Reason::height_disagrees};
 
 void judge(Availability& result, const PoseValue& value, const ValueReasons& reasons) {
   switch (value.validity) {
@@ -49,6 +55,10 @@ void judge(Availability& result, const PoseValue& value, const ValueReasons& rea
       return add_reason(result, reasons.implausible);
     case Validity::invalid:
       return add_reason(result, reasons.invalid);
+    case Validity::frozen:
+      return add_reason(result, reasons.frozen);
+    case Validity::disagrees:
+      return add_reason(result, reasons.disagrees);
     case Validity::reference_unknown:
       return add_reason(result, Reason::heading_reference_unknown);
   }
@@ -89,6 +99,17 @@ Availability availability(const OwnshipPose& pose) {
   judge(result, pose.longitude_deg, position_reasons);
   judge(result, pose.height_m, height_reasons);
   if (pose.position_source == PositionSource::ins) add_reason(result, Reason::position_from_ins);
+  if (pose.source_excluded) add_reason(result, Reason::source_excluded);
+  if (pose.velocity_doubted) add_reason(result, Reason::velocity_doubted);
+  if (pose.events.clock_stepped) add_reason(result, Reason::clock_stepped);
+  if (pose.events.frames_replayed) add_reason(result, Reason::frames_replayed);
+  if (pose.events.jump_believed) add_reason(result, Reason::jump_believed);
+  return result;
+}
+
+Availability availability(const OwnshipPose& pose, const GroundCheck& ground) {
+  Availability result = availability(pose);
+  if (ground.contradiction.raised) add_reason(result, Reason::radio_height_disagrees);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/monitor/ground_check.hpp"
 #include "core/state/ownship_pose.hpp"
 
 namespace ridgeline {
@@ -46,10 +47,14 @@ struct Availability {
 void add_reason(Availability& availability, Reason reason);
 
 /// What the ownship data alone allows; terrain, bound and label reasons are added with
-/// add_reason(). One reason per value: missing, stale, implausible, invalid; attitude stands for
-/// roll and pitch. Airspeed, rates and clock are not needed to draw terrain and never remove it.
+/// add_reason(). One reason per value: missing, stale, implausible, invalid, frozen, disagrees;
+/// attitude stands for roll and pitch. Sources left out, rates not believed and recent events
+/// degrade. Airspeed, rates and clock are not needed to draw terrain and never remove it.
 /// Cost:   O(1); no allocation.
 [[nodiscard]] Availability availability(const OwnshipPose& pose);
+
+/// The same, with what the radio height said of the ground that was drawn.
+[[nodiscard]] Availability availability(const OwnshipPose& pose, const GroundCheck& ground);
 
 /// The same for the pose at `now_ns`.
 [[nodiscard]] Availability availability(const OwnshipState& state, std::int64_t now_ns,

@@ -167,6 +167,36 @@ void place(OwnshipPose& pose, const OwnshipState& state, std::int64_t now_ns,
   extrapolate_height(pose, state, now_ns, limits);
 }
 
+BusParameter parameter_of(HeadingSource source) {
+  switch (source) {
+    case HeadingSource::heading:
+    case HeadingSource::heading_magnetic:
+      return BusParameter::heading;
+    case HeadingSource::magnetic_heading:
+      return BusParameter::magnetic_heading;
+    default:
+      return BusParameter::true_heading;
+  }
+}
+
+/// What integrity monitoring says besides the validity of each value.
+void note_doubts(OwnshipPose& pose, const OwnshipState& state, std::int64_t now_ns) {
+  const PositionParameters& position =
+      pose.position_source == PositionSource::ins ? ins_parameters : gps_parameters;
+  for (const BusParameter parameter : {position.latitude, position.height, BusParameter::roll,
+                                       BusParameter::pitch, parameter_of(pose.heading_source)}) {
+    if (doubt_at(state, parameter, now_ns) == Doubt::excluded) pose.source_excluded = true;
+  }
+  for (const BusParameter parameter :
+       {position.ground_speed, position.true_track, BusParameter::altitude_rate}) {
+    const Validity validity = validity_at(state, parameter, now_ns, icd_row(parameter).timeout_ns);
+    if (validity == Validity::implausible || validity == Validity::disagrees) {
+      pose.velocity_doubted = true;
+    }
+  }
+  pose.events = recent_events(state, now_ns);
+}
+
 }  // namespace
 
 StateLimits state_limits(const BusProfile& profile) {
@@ -187,6 +217,9 @@ OwnshipPose ownship_pose(const OwnshipState& state, std::int64_t now_ns,
   pose.heading_deg = heading.value;
   pose.heading_deg.value = heading_0_360(heading.value.value);
   pose.heading_source = heading.source;
+  pose.radio_height_m =
+      pose_value(state, BusParameter::radio_height, now_ns, limits::radio_height_timeout_ns);
+  note_doubts(pose, state, now_ns);
   return pose;
 }
 

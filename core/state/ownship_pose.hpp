@@ -4,6 +4,7 @@
 
 #include "config/limits_bus.hpp"
 #include "core/bus/bus_profile.hpp"
+#include "core/state/integrity.hpp"
 #include "core/state/ownship_state.hpp"
 
 namespace ridgeline {
@@ -54,6 +55,13 @@ struct OwnshipPose {
   PoseValue heading_deg;    ///< true, [0, 360)
   PositionSource position_source = PositionSource::none;
   HeadingSource heading_source = HeadingSource::none;
+  PoseValue radio_height_m;  ///< only compared, never used to place anything
+  /// One of several sources of a value above contradicts the others; the value is that of the
+  /// others.
+  bool source_excluded = false;
+  /// Speed, track or altitude rate jumped or does not fit the fixes: nothing is carried on by it.
+  bool velocity_doubted = false;
+  RecentEvents events;
   std::int64_t extrapolated_ns = 0;  ///< how long the position was carried on, 0 when it was not
 };
 

@@ -5,11 +5,13 @@
 
 #include "config/bus_icd.hpp"
 #include "core/bus/bus_decoder.hpp"
+#include "core/state/integrity_state.hpp"
 
 namespace ridgeline {
 
-/// What a value is good for. A stored sample is never `stale` or `reference_unknown`: both depend
-/// on the time and the profile of asking, and are answered by validity_at() and ownship_pose().
+/// What a value is good for. A stored sample is never `stale`, `frozen`, `disagrees` or
+/// `reference_unknown`: these depend on the time and the profile of asking, and are answered by
+/// validity_at() and ownship_pose().
 enum class Validity : std::uint8_t {
   missing,            ///< never received
   valid,              ///< received, plausible
@@ -17,6 +19,8 @@ enum class Validity : std::uint8_t {
   implausible,        ///< the newest value jumped away from the last good one
   invalid,            ///< the newest value was not finite or out of range
   reference_unknown,  ///< a heading whose reference (true or magnetic) cannot be told
+  frozen,             ///< the same bits while others say that it moves
+  disagrees,          ///< another source, or another parameter, contradicts it
 };
 
 /// One value with its own age, validity and source. `value` and `time_ns` are those of the last
@@ -37,20 +41,6 @@ struct JumpCandidate {
   std::uint8_t count = 0;
 };
 
-/// One coordinate that waits for the other one of its fix.
-struct PendingCoordinate {
-  bool pending = false;
-  double value_deg = 0.0;
-  std::int64_t time_ns = 0;
-  Source source;
-};
-
-/// What is remembered between updates to make consistent fixes of one receiver.
-struct PositionPairing {
-  PendingCoordinate latitude;
-  PendingCoordinate longitude;
-};
-
 /// Every frame handed in raises exactly one of the first group; the second counts consequences.
 struct UpdateCounters {
   std::uint32_t frames = 0;         ///< handed in
@@ -58,7 +48,7 @@ struct UpdateCounters {
   std::uint32_t ignored = 0;        ///< identifier not read by the display
   std::uint32_t not_data = 0;       ///< error, remote and CAN FD frames
   std::uint32_t other_channel = 0;  ///< redundancy channel, or index, that is not read
-  std::uint32_t other_source = 0;   ///< second sender while the first one is fresh
+  std::uint32_t other_source = 0;   ///< second sender while the first one is fresh: compared
   std::uint32_t bad_length = 0;
   /// Also reserved types, positions coded too coarsely, heights without a datum.
   std::uint32_t type_mismatch = 0;
@@ -73,15 +63,23 @@ struct UpdateCounters {
   std::uint32_t implausible = 0;       ///< jumped, refused
   std::uint32_t out_of_order = 0;      ///< older than what is held
   std::uint32_t from_future = 0;       ///< later than `now` by more than the tolerance
+  std::uint32_t duplicated = 0;        ///< the message code of the frame before it
+  std::uint32_t replayed = 0;          ///< a message code that was there before
 
-  std::uint32_t unpaired_halves = 0;  ///< halves of a DOUBLE and coarse words given up
-  std::uint32_t unpaired_fixes = 0;   ///< latitudes or longitudes given up
-  std::uint32_t jumps_believed = 0;   ///< jumps that persisted
-  std::uint32_t source_changes = 0;   ///< parameters taken over by another sender
-  std::uint32_t clock_resets = 0;     ///< `now` went back: everything was forgotten
+  std::uint32_t unpaired_halves = 0;   ///< halves of a DOUBLE and coarse words given up
+  std::uint32_t unpaired_fixes = 0;    ///< latitudes or longitudes given up
+  std::uint32_t jumps_believed = 0;    ///< jumps that persisted
+  std::uint32_t source_changes = 0;    ///< parameters taken over by another sender
+  std::uint32_t clock_resets = 0;      ///< `now` went back: everything was forgotten
+  std::uint32_t clock_steps = 0;       ///< UTC on the bus and times of reception came apart
+  std::uint32_t replay_bursts = 0;     ///< times too many frames were there before
+  std::uint32_t lost_in_sequence = 0;  ///< frames missing by their message codes
+  std::uint32_t disagreements = 0;     ///< times two sources began to contradict each other
+  std::uint32_t freezes = 0;           ///< times a value was found to stand still
+  std::uint32_t outvoted = 0;          ///< sources left because two others agreed against them
 };
 
-/// The ownship as the bus describes it. Trivially copyable; about 2 KiB.
+/// The ownship as the bus describes it. Trivially copyable; about 12 KiB.
 /// The samples of a latitude and its longitude always belong to one fix: one source, times within
 /// BusProfile::fix_pair_limit_ns; they change together or not at all.
 struct OwnshipState {
@@ -92,6 +90,7 @@ struct OwnshipState {
   PositionPairing gps;
   PositionPairing ins;
   DecoderMemory decoder;
+  IntegrityState integrity;
   std::int64_t now_ns = 0;  ///< of the last update
   UpdateCounters counters;
 
@@ -105,9 +104,13 @@ struct OwnshipState {
   return now_ns > sample.time_ns ? now_ns - sample.time_ns : 0;
 }
 
-/// Validity of a parameter at `now_ns`: a refused value counts as long as it is younger than
-/// `timeout_ns`, a good one as well; after that the parameter is stale. Only frames of this
-/// parameter keep it alive.
+/// What the frames of a parameter themselves say of it at `now_ns`: a refused value counts as long
+/// as it is younger than `timeout_ns`, a good one as well; after that the parameter is stale. Only
+/// frames of this parameter keep it alive.
+[[nodiscard]] Validity own_validity_at(const OwnshipState& state, BusParameter parameter,
+                                       std::int64_t now_ns, std::int64_t timeout_ns);
+
+/// The same; and where that is `valid`, whether others contradict it (integrity.hpp).
 [[nodiscard]] Validity validity_at(const OwnshipState& state, BusParameter parameter,
                                    std::int64_t now_ns, std::int64_t timeout_ns);
 

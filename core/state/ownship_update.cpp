@@ -2,17 +2,15 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "core/bus/bus_decoder.hpp"
+#include "core/state/counting.hpp"
+#include "core/state/integrity.hpp"
 #include "core/state/plausibility.hpp"
+#include "core/state/rivals.hpp"
 
 namespace ridgeline {
 namespace {
-
-void bump(std::uint32_t& counter) {
-  if (counter != std::numeric_limits<std::uint32_t>::max()) ++counter;
-}
 
 std::size_t index_of(BusParameter parameter) {
   return static_cast<std::size_t>(parameter);
@@ -91,6 +89,7 @@ void store(OwnshipState& state, BusParameter parameter, double value, std::int64
   Sample& sample = state.samples[index_of(parameter)];
   if (sample.validity != Validity::missing && sample.source != source) {
     bump(state.counters.source_changes);
+    forget_rival(state, parameter, source);
   }
   sample = Sample{value, time_ns, Validity::valid, source};
   state.candidates[index_of(parameter)] = JumpCandidate{};
@@ -127,7 +126,7 @@ bool jump_persists(JumpCandidate& candidate, const JumpRule& rule, double distan
 
 /// Takes a single value in, unless it jumps.
 void take_value(OwnshipState& state, BusParameter parameter, double value, std::int64_t time_ns,
-                const Source& source) {
+                const Source& source, const BusProfile& profile) {
   const Sample& held = state[parameter];
   const JumpRule rule = jump_rule(parameter);
   const bool checked = rule.persist_count > 0 && held.validity != Validity::missing &&
@@ -142,9 +141,11 @@ void take_value(OwnshipState& state, BusParameter parameter, double value, std::
       return;
     }
     bump(state.counters.jumps_believed);
+    note_jump(state, time_ns);
   }
   bump(state.counters.decoded);
   store(state, parameter, value, time_ns, source);
+  note_value(state, parameter, profile);
 }
 
 /// Takes a complete fix in, unless it jumps. Raises the counter of the frame that completed it.
@@ -176,10 +177,12 @@ void take_fix(OwnshipState& state, const FixCoordinates& fix, const PendingCoord
       return;
     }
     bump(state.counters.jumps_believed);
+    note_jump(state, time_ns);
   }
   bump(state.counters.decoded);
   store(state, fix.latitude, latitude.value_deg, latitude.time_ns, latitude.source);
   store(state, fix.longitude, longitude.value_deg, longitude.time_ns, longitude.source);
+  note_fix(state, fix.latitude == BusParameter::gps_latitude);
 }
 
 /// Takes one coordinate in; the fix follows when its partner is there as well.
@@ -212,23 +215,44 @@ void take_decoded(OwnshipState& state, const BusValue& decoded, const BusProfile
     const PendingCoordinate coordinate{true, decoded.value, decoded.time_ns, decoded.source};
     return take_coordinate(state, fix, decoded.parameter, coordinate, profile);
   }
-  take_value(state, decoded.parameter, decoded.value, decoded.time_ns, decoded.source);
+  take_value(state, decoded.parameter, decoded.value, decoded.time_ns, decoded.source, profile);
+}
+
+/// Whether the message code says that the frame is a new one; counts it where not. Only
+/// CANaerospace has such a code.
+bool is_new_message(OwnshipState& state, const FrameTopic& topic, const BusFrame& frame,
+                    const BusProfile& profile) {
+  constexpr std::size_t code_byte = 3;
+  if (profile.protocol != BusProtocol::canaerospace || frame.length <= code_byte) return true;
+  SequenceWatch& watch = state.integrity.sequences[index_of(topic.parameter)];
+  const SequenceStep step = sequence_step(watch, topic.source, frame.data[code_byte]);
+  watch = step.next;
+  for (int lost = 0; lost < step.missing; ++lost) bump(state.counters.lost_in_sequence);
+  if (step.verdict == Sequence::begun_anew) note_replay(state, frame.time_ns);
+  if (step.verdict != Sequence::duplicate && step.verdict != Sequence::behind) return true;
+  bump(step.verdict == Sequence::duplicate ? state.counters.duplicated : state.counters.replayed);
+  note_replay(state, frame.time_ns);
+  return false;
 }
 
 /// Whether the frame may be looked at; counts it where not.
-bool topic_is_taken(OwnshipState& state, const FrameTopic& topic, std::int64_t time_ns) {
+bool topic_is_taken(OwnshipState& state, const FrameTopic& topic, const BusFrame& frame,
+                    const BusProfile& profile) {
   UpdateCounters& counters = state.counters;
   const Sample& held = state[topic.parameter];
+  const std::int64_t time_ns = frame.time_ns;
   if (!topic.is_read) {
     bump(counters.other_channel);
   } else if (time_ns > state.now_ns + limits::future_tolerance_ns) {
     bump(counters.from_future);
-  } else if (held.validity != Validity::missing && time_ns < held.time_ns) {
-    bump(counters.out_of_order);
   } else if (!source_is_accepted(state, topic.parameter, topic.source, time_ns)) {
     bump(counters.other_source);
+    take_rival(state, frame, topic, profile);
+  } else if (held.validity != Validity::missing && time_ns < held.time_ns) {
+    bump(counters.out_of_order);
+    note_replay(state, state.now_ns);
   } else {
-    return true;
+    return is_new_message(state, topic, frame, profile);
   }
   return false;
 }
@@ -237,7 +261,7 @@ void take_frame(OwnshipState& state, const BusFrame& frame, const BusProfile& pr
   UpdateCounters& counters = state.counters;
   bump(counters.frames);
   const std::optional<FrameTopic> topic = frame_topic(frame, profile);
-  if (topic && !topic_is_taken(state, *topic, frame.time_ns)) return;
+  if (topic && !topic_is_taken(state, *topic, frame, profile)) return;
   const DecodeStep step = decoded_frame(state.decoder, frame, profile);
   state.decoder = step.memory;
   if (step.unpaired) bump(counters.unpaired_halves);
@@ -259,20 +283,35 @@ OwnshipState update_ownship(const OwnshipState& previous, std::span<const BusFra
     state = OwnshipState{};
     state.counters = previous.counters;
     bump(state.counters.clock_resets);
+    note_clock_step(state, now_ns);
   }
   state.now_ns = now_ns;
   for (const BusFrame& frame : frames) take_frame(state, frame, profile);
   return state;
 }
 
-Validity validity_at(const OwnshipState& state, BusParameter parameter, std::int64_t now_ns,
-                     std::int64_t timeout_ns) {
+Validity own_validity_at(const OwnshipState& state, BusParameter parameter, std::int64_t now_ns,
+                         std::int64_t timeout_ns) {
   const Sample& sample = state[parameter];
   if (sample.validity == Validity::missing) return Validity::missing;
   const std::int64_t refused_ns = state.refused_time_ns[static_cast<std::size_t>(parameter)];
   const bool refused = sample.validity != Validity::valid;
   const std::int64_t heard_ns = refused ? refused_ns : sample.time_ns;
   return now_ns - heard_ns > timeout_ns ? Validity::stale : sample.validity;
+}
+
+Validity validity_at(const OwnshipState& state, BusParameter parameter, std::int64_t now_ns,
+                     std::int64_t timeout_ns) {
+  const Validity own = own_validity_at(state, parameter, now_ns, timeout_ns);
+  if (own != Validity::valid) return own;
+  switch (doubt_at(state, parameter, now_ns)) {
+    case Doubt::frozen:
+      return Validity::frozen;
+    case Doubt::disagrees:
+      return Validity::disagrees;
+    default:
+      return own;
+  }
 }
 
 }  // namespace ridgeline

@@ -24,6 +24,13 @@ JumpRule jump_rule(BusParameter parameter) {
     case BusParameter::ins_height:
       return {limits::height_speed_limit_mps, limits::height_jump_slack_m,
               limits::position_persist_count};
+    case BusParameter::gps_ground_speed:
+    case BusParameter::ins_ground_speed:
+      return {limits::ground_speed_rate_limit_mps2, limits::velocity_jump_slack_mps,
+              limits::position_persist_count};
+    case BusParameter::altitude_rate:
+      return {limits::altitude_rate_rate_limit_mps2, limits::velocity_jump_slack_mps,
+              limits::position_persist_count};
     default:
       return {};
   }

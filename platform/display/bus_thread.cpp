@@ -67,7 +67,6 @@ void BusThread::take(std::span<const ReceivedFrame> received) {
     status_.newest_frame_ns = std::max(status_.newest_frame_ns, received[i].monotonic_ns);
     answer(received[i]);
   }
-  // The state of the newest frames; agreement of sources is judged here, before it is published.
   state_ = update_ownship(state_, std::span(frames).first(received.size()), monotonic_now_ns(),
                           profile_);
 }

@@ -137,7 +137,8 @@ FrameInput RenderThread::frame_input_now(std::int64_t now_ns) {
   attitude_ns_ = newest_ns({pose.roll_deg, pose.pitch_deg}, now_ns);
   newest_input_ns_ = newest_ns(
       {pose.latitude_deg, pose.height_m, pose.roll_deg, pose.pitch_deg, pose.heading_deg}, now_ns);
-  return frame_input(pose, now_ns);
+  radio_height_m_ = pose.radio_height_m;
+  return frame_input(pose, ground_, now_ns);
 }
 
 void RenderThread::draw(std::int64_t due_ns) {
@@ -148,6 +149,8 @@ void RenderThread::draw(std::int64_t due_ns) {
   const Availability before = fact_.availability;
   report_ = scene_->draw(settings, input);
   static_cast<void>(scene_->finish(report_));
+  // What this frame shows is judged by the next one: the ground below is known once it is drawn.
+  ground_ = ground_check(ground_, radio_height_m_, report_.over_ground_m, started_ns);
   fact_.availability = report_.availability;
   const Fault presented = present();
   const std::int64_t finished_ns = monotonic_now_ns();

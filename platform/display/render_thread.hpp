@@ -71,6 +71,8 @@ class RenderThread {
   std::optional<Scene> scene_;
   Texture blank_;
   FrameReport report_;
+  GroundCheck ground_;
+  PoseValue radio_height_m_;
   FrameFact fact_;
   std::int64_t attitude_ns_ = 0, newest_input_ns_ = 0;
   std::array<Shown, 4> on_the_way_{};

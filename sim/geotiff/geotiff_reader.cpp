@@ -1,6 +1,7 @@
 #include "sim/geotiff/geotiff_reader.hpp"
 
 #include <cpl_error.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
@@ -8,9 +9,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -26,6 +29,7 @@ namespace {
 constexpr float unknown_m = std::numeric_limits<float>::quiet_NaN();
 constexpr double snap_deg = 1e-6;
 constexpr double pole_slack_deg = 1e-9;
+constexpr double smallest_step_deg = 1e-6;  // 0.11 m; below it every post would be snapped
 constexpr std::int64_t largest_post_count = std::int64_t{1} << 28;
 constexpr double wgs84_semi_major_m = 6378137.0;
 
@@ -68,10 +72,15 @@ FileProblem unsupported(const std::string& path, const std::string& detail) {
 }
 
 FileResult<Dataset> opened(const std::string& path, const QuietGdal& gdal) {
-  std::error_code error;
-  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
-  if (error) return file_problem(path, Fault::tile_unreadable, error.message());
-  if (size_bytes == 0) return file_problem(path, Fault::tile_truncated, "0 bytes");
+  // GDAL's own question, so that its files in memory are files as well.
+  VSIStatBufL status = {};
+  if (VSIStatL(path.c_str(), &status) != 0) {
+    return file_problem(path, Fault::tile_unreadable, std::strerror(errno));
+  }
+  if (VSI_ISDIR(status.st_mode)) {
+    return file_problem(path, Fault::tile_unreadable, std::strerror(EISDIR));
+  }
+  if (status.st_size == 0) return file_problem(path, Fault::tile_truncated, "0 bytes");
   const char* const drivers[] = {"GTiff", nullptr};
   const unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
   Dataset dataset(GDALOpenEx(path.c_str(), flags, drivers, nullptr, nullptr));
@@ -127,6 +136,9 @@ std::optional<FileProblem> place_posts(const std::string& path, Raster& raster) 
   const int rows = GDALGetRasterYSize(raster.dataset.get());
   if (corner[2] != 0 || corner[4] != 0) return unsupported(path, "rotated raster");
   if (!(corner[1] > 0) || !(std::abs(corner[5]) > 0)) return unsupported(path, "mirrored raster");
+  if (corner[1] < smallest_step_deg || std::abs(corner[5]) < smallest_step_deg) {
+    return unsupported(path, "posts less than 1e-6 degree apart");
+  }
   if (columns < 2 || rows < 2 || std::int64_t{columns} * rows > largest_post_count) {
     return unsupported(path, std::to_string(columns) + " x " + std::to_string(rows) + " posts");
   }

@@ -27,11 +27,11 @@ struct PostAxis {
 ///         are taken as WGS 84, which they are within about 2 m.
 /// Domain: a projected raster is Fault::tile_projected, its system named in the message. No or
 ///         another coordinate system (other datum, grads, other meridian), a rotated raster,
-///         posts beyond the poles, other bands or types, heights not in metres, or more than
-///         2^28 posts: Fault::tile_unsupported. A file that is no GeoTIFF, or whose directory is
-///         damaged: Fault::tile_header_corrupt; damaged pixels: Fault::tile_record_corrupt.
-///         Messages end with what GDAL said; nothing is printed. The format has no checksum of its
-///         own: damage that still decodes is not found.
+///         posts less than 1e-6 degree apart or beyond the poles, other bands or types, heights not
+///         in metres, or more than 2^28 posts: Fault::tile_unsupported. A file that is no GeoTIFF,
+///         or whose directory is damaged: Fault::tile_header_corrupt; damaged pixels:
+///         Fault::tile_record_corrupt. Messages end with what GDAL said; nothing is printed. The
+///         format has no checksum of its own: damage that still decodes is not found.
 class GeotiffReader final : public TileReader {
  public:
   GeotiffReader();

@@ -1,11 +1,11 @@
 #include "sim/import_igc/igc_track.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <string_view>
 #include <system_error>
 
 namespace ridgeline {
@@ -124,7 +124,13 @@ class TrackReader {
     ++track_.counters.other_lines;
   }
 
-  IgcTrack track() && { return std::move(track_); }
+  Result<IgcTrack> track() && {
+    if (track_.fixes.empty()) return Fault::track_without_fixes;
+    bool has_height = false;
+    for (const IgcFix& fix : track_.fixes) has_height = has_height || fix.altitude_m != 0.0;
+    if (!has_height) return Fault::track_without_height;
+    return std::move(track_);
+  }
 
  private:
   void refuse(std::string_view why) {
@@ -238,12 +244,18 @@ Result<IgcTrack> igc_track(const std::filesystem::path& path) {
   TrackReader reader(path.string());
   for (std::string line; std::getline(file, line);) reader.take_line(line);
   if (file.bad()) return Fault::file_unreadable;
-  IgcTrack track = std::move(reader).track();
-  if (track.fixes.empty()) return Fault::track_without_fixes;
-  bool has_height = false;
-  for (const IgcFix& fix : track.fixes) has_height = has_height || fix.altitude_m != 0.0;
-  if (!has_height) return Fault::track_without_height;
-  return track;
+  return std::move(reader).track();
+}
+
+Result<IgcTrack> igc_track_in(std::string_view text, const std::string& name) {
+  TrackReader reader(name);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    reader.take_line(line);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return std::move(reader).track();
 }
 
 }  // namespace ridgeline

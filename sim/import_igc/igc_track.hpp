@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.hpp"
@@ -50,5 +51,8 @@ struct IgcTrack {
 /// Source: FAI/IGC technical specification for GNSS flight recorders, appendix A (records A, B, H,
 /// I).
 [[nodiscard]] Result<IgcTrack> igc_track(const std::filesystem::path& path);
+
+/// The track in the text of a file named `name`; as igc_track().
+[[nodiscard]] Result<IgcTrack> igc_track_in(std::string_view text, const std::string& name);
 
 }  // namespace ridgeline

@@ -85,8 +85,7 @@ Heights heights_of(const IgcTrack& track, const IgcImportOptions& options) {
 
 class LogWriter {
  public:
-  explicit LogWriter(const std::filesystem::path& path) : out_(path, std::ios::binary) {}
-  [[nodiscard]] bool good() const { return out_.good(); }
+  explicit LogWriter(std::ostream& out) : out_(out) {}
   void label(const std::string& text) { out_ << "# ridgeline: " << text << '\n'; }
   void write(const BusFrame& frame) {
     out_ << candump_text(frame, interface_name) << '\n';
@@ -96,14 +95,10 @@ class LogWriter {
   [[nodiscard]] CanasHeader header(BusParameter parameter, std::uint8_t node) {
     return {node, 0, codes_[static_cast<std::size_t>(parameter)]++};
   }
-  bool close() {
-    out_.close();
-    return out_.good();
-  }
   [[nodiscard]] std::uint64_t frame_count() const { return frame_count_; }
 
  private:
-  std::ofstream out_;
+  std::ostream& out_;
   std::uint64_t frame_count_ = 0;
   std::array<std::uint8_t, bus_parameter_count> codes_{};
 };
@@ -212,13 +207,13 @@ std::string formatted(const char* format, double a, double b) {
   return text.data();
 }
 
-std::vector<std::string> labels_of(const std::filesystem::path& input, const IgcTrack& track,
+std::vector<std::string> labels_of(const std::string& name, const IgcTrack& track,
                                    const RecordedSigns& signs, const std::string& height_label,
                                    const IgcImportOptions& options) {
   const DerivationRules& rules = options.rules;
   std::vector<std::string> labels;
-  labels.push_back("SOURCE IGC track " + input.filename().string() + ", " +
-                   std::to_string(track.fixes.size()) + " fixes");
+  labels.push_back("SOURCE IGC track " + name + ", " + std::to_string(track.fixes.size()) +
+                   " fixes");
   if (!track.has_date) labels.emplace_back("SOURCE has no date: times are seconds of the day");
   labels.push_back(
       formatted("DERIVED position height ground_speed track altitude_rate from GNSS "
@@ -299,15 +294,8 @@ void write_pieces(LogWriter& log, const IgcTrack& track, const Plan& plan,
 
 }  // namespace
 
-Result<IgcImportReport> import_igc(const std::filesystem::path& input,
-                                   const std::filesystem::path& output,
-                                   const IgcImportOptions& options) {
-  const Result<IgcTrack> read = igc_track(input);
-  if (!read) return read.fault();
-  const IgcTrack& track = read.value();
-  std::error_code error;
-  if (std::filesystem::equivalent(input, output, error)) return Fault::file_unwritable;
-
+Result<IgcImportReport> write_igc_log(const IgcTrack& track, const std::string& name,
+                                      const IgcImportOptions& options, std::ostream& out) {
   const Heights heights = heights_of(track, options);
   const Plan plan = plan_of(track, heights, options);
   if (plan.flights.empty()) return Fault::track_without_fixes;
@@ -317,21 +305,36 @@ Result<IgcImportReport> import_igc(const std::filesystem::path& input,
   report.counters = track.counters;
   report.problems = track.problems;
   report.short_segments = plan.short_segments;
-  report.labels = labels_of(input, track, signs, heights.label, options);
+  report.labels = labels_of(name, track, signs, heights.label, options);
+  LogWriter log(out);
+  for (const std::string& label : report.labels) log.label(label);
+  write_pieces(log, track, plan, signs, options, report);
+  report.frames_written = log.frame_count();
+  if (report.frames_written == 0) return Fault::track_without_fixes;
+  return report;
+}
+
+Result<IgcImportReport> import_igc(const std::filesystem::path& input,
+                                   const std::filesystem::path& output,
+                                   const IgcImportOptions& options) {
+  const Result<IgcTrack> track = igc_track(input);
+  if (!track) return track.fault();
+  std::error_code error;
+  if (std::filesystem::equivalent(input, output, error)) return Fault::file_unwritable;
 
   // Written beside its place and moved there when complete: a broken log would look like a short
   // flight.
   const std::filesystem::path partial = output.string() + ".partial";
-  LogWriter log(partial);
-  for (const std::string& label : report.labels) log.label(label);
-  write_pieces(log, track, plan, signs, options, report);
-  report.frames_written = log.frame_count();
-  if (log.close() && report.frames_written > 0) {
+  std::ofstream file(partial, std::ios::binary);
+  Result<IgcImportReport> report =
+      write_igc_log(track.value(), input.filename().string(), options, file);
+  file.close();
+  if (report && file.good()) {
     std::filesystem::rename(partial, output, error);
     if (!error) return report;
   }
   std::filesystem::remove(partial, error);
-  return report.frames_written == 0 ? Fault::track_without_fixes : Fault::file_unwritable;
+  return report ? Fault::file_unwritable : report.fault();
 }
 
 }  // namespace ridgeline

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,5 +57,11 @@ struct IgcImportReport {
 [[nodiscard]] Result<IgcImportReport> import_igc(const std::filesystem::path& input,
                                                  const std::filesystem::path& output,
                                                  const IgcImportOptions& options = {});
+
+/// The log of a track that has been read, written to `out`; `name` is the track's for the labels.
+/// Domain: no unbroken piece of four fixes, or nothing to write: track_without_fixes.
+[[nodiscard]] Result<IgcImportReport> write_igc_log(const IgcTrack& track, const std::string& name,
+                                                    const IgcImportOptions& options,
+                                                    std::ostream& out);
 
 }  // namespace ridgeline

@@ -79,9 +79,10 @@ std::string candump_text(const BusFrame& frame, std::string_view interface) {
   line.append(interface);
   std::snprintf(text, sizeof text, frame.extended ? " %08X#" : " %03X#", frame.id);
   line.append(text);
+  constexpr std::string_view digits = "0123456789ABCDEF";
   for (std::size_t index = 0; index < frame.length && index < 8; ++index) {
-    std::snprintf(text, sizeof text, "%02X", frame.data[index]);
-    line.append(text);
+    line += digits[frame.data[index] >> 4U];
+    line += digits[frame.data[index] & 15U];
   }
   return line;
 }

@@ -1,8 +1,8 @@
 #include "sim/log/candump_reader.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace ridgeline {
 namespace {
@@ -21,28 +21,46 @@ constexpr std::uint32_t fold_limit = 0x800;
 Result<CandumpReader> CandumpReader::open(const std::filesystem::path& path,
                                           const CandumpOptions& options) {
   CandumpReader reader;
-  reader.name_ = path.string();
-  reader.options_ = options;
   std::error_code error;
   // A folder can be opened, but not read.
   if (std::filesystem::is_directory(path, error)) return Fault::file_unreadable;
   reader.file_.reset(std::fopen(path.c_str(), "rb"));
   if (reader.file_ == nullptr) return Fault::file_unreadable;
-  reader.block_.resize(block_bytes);
-  LogFormat format = options.format;
-  if (format == LogFormat::by_content) {
-    reader.fill_block();
-    format = log_format({reader.block_.data(), reader.block_used_}, reader.name_);
-  }
-  reader.parser_ = LineParser(format);
+  reader.buffer_.resize(block_bytes);
+  reader.start(path.string(), options);
   return reader;
 }
 
-/// Reads the next block of the file; an empty one at its end, or when reading fails.
+CandumpReader CandumpReader::over(std::string_view text, std::string name,
+                                  const CandumpOptions& options, std::size_t piece_bytes) {
+  CandumpReader reader;
+  reader.memory_ = text;
+  reader.piece_bytes_ = piece_bytes;
+  reader.start(std::move(name), options);
+  return reader;
+}
+
+void CandumpReader::start(std::string name, const CandumpOptions& options) {
+  name_ = std::move(name);
+  options_ = options;
+  LogFormat format = options.format;
+  if (format == LogFormat::by_content) {
+    fill_block();
+    format = log_format(block_, name_);
+  }
+  parser_ = LineParser(format);
+}
+
+/// Takes the next block; an empty one at the end, or when reading fails.
 void CandumpReader::fill_block() {
-  block_used_ = std::fread(block_.data(), 1, block_.size(), file_.get());
-  block_at_ = 0;
-  read_failed_ = block_used_ == 0 && std::ferror(file_.get()) != 0;
+  if (file_ == nullptr) {
+    block_ = memory_.substr(0, piece_bytes_);
+    memory_.remove_prefix(block_.size());
+    return;
+  }
+  const std::size_t used = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
+  block_ = {buffer_.data(), used};
+  read_failed_ = used == 0 && std::ferror(file_.get()) != 0;
 }
 
 /// Reads the next line into line_, without its end; false at the end of the file.
@@ -51,22 +69,18 @@ bool CandumpReader::read_line() {
   line_is_too_long_ = false;
   bool any = false;
   while (true) {
-    if (block_at_ == block_used_) {
+    if (block_.empty()) {
       fill_block();
-      if (block_used_ == 0) return any;
+      if (block_.empty()) return any;
     }
     any = true;
-    const char* begin = block_.data() + block_at_;
-    const std::size_t available = block_used_ - block_at_;
-    const void* end = std::memchr(begin, '\n', available);
-    const std::size_t length =
-        end == nullptr ? available
-                       : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
+    const std::size_t end = block_.find('\n');
+    const std::string_view part = block_.substr(0, end);
     const std::size_t room = longest_line - line_.size();
-    if (length > room) line_is_too_long_ = true;
-    line_.append(begin, std::min(length, room));
-    block_at_ += length + (end == nullptr ? 0 : 1);
-    if (end != nullptr) return true;
+    if (part.size() > room) line_is_too_long_ = true;
+    line_.append(part.substr(0, room));
+    block_.remove_prefix(part.size() + (end == std::string_view::npos ? 0 : 1));
+    if (end != std::string_view::npos) return true;
   }
 }
 

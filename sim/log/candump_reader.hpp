@@ -46,6 +46,7 @@ struct CandumpStatistics {
   [[nodiscard]] std::uint64_t frames() const {
     return data_frames + fd_frames + remote_frames + error_frames;
   }
+  [[nodiscard]] bool operator==(const CandumpStatistics&) const = default;
 };
 
 /// What is kept of a log besides its frames.
@@ -64,6 +65,13 @@ class CandumpReader {
   [[nodiscard]] static Result<CandumpReader> open(const std::filesystem::path& path,
                                                   const CandumpOptions& options = {});
 
+  /// Reads a log that lies in memory, handed over in pieces of at most `piece_bytes` as a file is.
+  /// Domain: piece_bytes >= 1; the first piece decides the format where it is told by content.
+  /// Owner:  views `text`, which outlives the reader.
+  [[nodiscard]] static CandumpReader over(std::string_view text, std::string name,
+                                          const CandumpOptions& options = {},
+                                          std::size_t piece_bytes = std::size_t{64} * 1024);
+
   /// The next frame in file order; nothing at the end, or when reading fails (see status()).
   [[nodiscard]] std::optional<BusFrame> next();
 
@@ -78,6 +86,7 @@ class CandumpReader {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   CandumpReader() = default;
+  void start(std::string name, const CandumpOptions& options);
   void fill_block();
   bool read_line();
   std::optional<BusFrame> taken(const CandumpLine& line);
@@ -90,9 +99,10 @@ class CandumpReader {
   std::unique_ptr<std::FILE, CloseFile> file_;
   CandumpOptions options_;
   LineParser parser_;
-  std::vector<char> block_;
-  std::size_t block_used_ = 0;
-  std::size_t block_at_ = 0;
+  std::vector<char> buffer_;     ///< of a file
+  std::string_view memory_;      ///< what is left of a log in memory
+  std::size_t piece_bytes_ = 0;  ///< most of `memory_` that is taken at once
+  std::string_view block_;       ///< what is left of the block in hand
   std::string line_;
   bool line_is_too_long_ = false;
   bool read_failed_ = false;

@@ -190,6 +190,7 @@ CandumpLine PeakTrcParser::frame_of(const Row& row) {
   line.frame.remote = type == "RR" || row.data == "RTR";
   if (!line.frame.remote && !is_data_type(type)) return malformed_line("type is not a known one");
   line.frame.fd = !type.empty() && type != "DT" && type != "RR";
+  if (line.frame.remote && line.frame.fd) return malformed_line("a remote frame is not CAN FD");
   const std::optional<std::uint32_t> length = decimal_number(row.length);
   const bool is_code = row.length_is_code;
   if (!length || *length > (is_code ? 15U : 64U)) return malformed_line("length is out of range");

@@ -161,6 +161,9 @@ CandumpLine VectorAscParser::fd_line(std::string_view rest, std::int64_t time_ns
   // Some writers leave the flags 0: then the line itself says CAN FD.
   line.frame.fd = !flags || *flags == 0 || (*flags & fd_flag) != 0 || *length > 8;
   line.frame.remote = flags && (*flags & remote_flag) != 0;
+  if (line.frame.remote && ((*flags & fd_flag) != 0 || *length > 0)) {
+    return malformed_line("a remote frame is not CAN FD and has no data");
+  }
   if (line.frame.remote) line.frame.length = static_cast<std::uint8_t>(*code < 8 ? *code : 8);
   return line;
 }

@@ -37,9 +37,9 @@ class LogPlayer {
   std::size_t next_ = 0;
 };
 
-FrameInput input_of(const OwnshipPose& pose, std::int64_t time_ns, const ReplayOptions& options,
-                    bool derived) {
-  FrameInput input = frame_input(pose, time_ns);
+FrameInput input_of(const OwnshipPose& pose, const GroundCheck& ground, std::int64_t time_ns,
+                    const ReplayOptions& options, bool derived) {
+  FrameInput input = frame_input(pose, ground, time_ns);
   if (pose.heading_source == HeadingSource::heading && options.heading_assumed) {
     add_reason(input.availability, Reason::heading_reference_assumed);
   }
@@ -129,12 +129,16 @@ Outcome replay(const ReplayOptions& options) {
   const bool derived = is_derived(log);
   LogPlayer player(log, options.bus);
   ReplayReport report;
+  GroundCheck ground;
   for (int index = 0; index < count; ++index) {
     const double at_s = options.from_s + index / options.rate_hz;
     const std::int64_t now_ns = start_ns + static_cast<std::int64_t>(std::llround(at_s * 1e9));
     const OwnshipPose pose = player.advance(now_ns);
-    const Picture picture = session.draw(input_of(pose, now_ns, options, derived), want_pixels);
+    const Picture picture =
+        session.draw(input_of(pose, ground, now_ns, options, derived), want_pixels);
     if (!picture.problem.ok()) return picture.problem;
+    // What this frame showed is judged by the next one: the ground below is known once it is drawn.
+    ground = ground_check(ground, pose.radio_height_m, picture.report.over_ground_m, now_ns);
     for (const std::string& problem : session.new_problems()) {
       std::fprintf(stderr, "\nridgeline: %s\n", problem.c_str());
     }
@@ -150,7 +154,7 @@ Outcome replay(const ReplayOptions& options) {
               report.removed_count(), report.median_cpu_ms(),
               static_cast<unsigned long long>(log.statistics.bad_lines));
   if (options.report_file.empty()) return {};
-  const auto json = report.finished(log, player.state(), session, options.log_file);
+  const auto json = report.finished(log, player.state(), ground, session, options.log_file);
   return write_file(options.report_file, json.dump(1) + "\n");
 }
 

@@ -92,11 +92,26 @@ nlohmann::ordered_json bus_json(const UpdateCounters& c) {
           {"unpaired_words", c.unpaired_words},
           {"implausible", c.implausible},
           {"out_of_order", c.out_of_order},
+          {"from_future", c.from_future},
+          {"duplicated", c.duplicated},
+          {"replayed", c.replayed},
           {"unpaired_halves", c.unpaired_halves},
           {"unpaired_fixes", c.unpaired_fixes},
           {"jumps_believed", c.jumps_believed},
           {"source_changes", c.source_changes},
           {"clock_resets", c.clock_resets}};
+}
+
+nlohmann::ordered_json integrity_json(const UpdateCounters& c, const GroundCheck& ground) {
+  return {{"disagreements", c.disagreements},
+          {"freezes", c.freezes},
+          {"outvoted", c.outvoted},
+          {"jumps_believed", c.jumps_believed},
+          {"clock_resets", c.clock_resets},
+          {"clock_steps", c.clock_steps},
+          {"replay_bursts", c.replay_bursts},
+          {"lost_in_sequence", c.lost_in_sequence},
+          {"radio_height_disagreements", ground.disagreements}};
 }
 
 }  // namespace
@@ -181,7 +196,7 @@ double ReplayReport::median_cpu_ms() const {
 }
 
 nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const OwnshipState& state,
-                                              const Session& session,
+                                              const GroundCheck& ground, const Session& session,
                                               const std::string& log_file) const {
   nlohmann::ordered_json json;
   json["log"] = log_file;
@@ -212,6 +227,7 @@ nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const Ownsh
   json["bad_lines"] = log.statistics.bad_lines;
   json["log_lines"] = log_json(log);
   json["bus"] = bus_json(state.counters);
+  json["integrity"] = integrity_json(state.counters, ground);
   json["frames"] = frames_;
   return json;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/monitor/ground_check.hpp"
 #include "core/state/ownship_state.hpp"
 #include "sim/log/candump_reader.hpp"
 #include "sim/session/session.hpp"
@@ -18,7 +19,7 @@ class ReplayReport {
 
   /// The finished report; `log` and `state` add what the input was like.
   [[nodiscard]] nlohmann::ordered_json finished(const CandumpLog& log, const OwnshipState& state,
-                                                const Session& session,
+                                                const GroundCheck& ground, const Session& session,
                                                 const std::string& log_file) const;
 
  private:

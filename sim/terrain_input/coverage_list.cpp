@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sim/terrain_input/statements.hpp"
-
 namespace ridgeline::sim {
 namespace {
 
@@ -20,7 +18,10 @@ bool says_sea(std::string_view word) {
 FileResult<std::vector<TileLocation>> coverage_list(const std::string& path) {
   const FileResult<StatementFile> read = statements_of(path);
   if (!read.ok()) return read.problem();
-  const StatementFile& file = read.value();
+  return coverage_list(read.value());
+}
+
+FileResult<std::vector<TileLocation>> coverage_list(const StatementFile& file) {
   std::vector<TileLocation> cells;
   for (const Statement& statement : file.statements) {
     const std::vector<std::string_view> words = statement.words();

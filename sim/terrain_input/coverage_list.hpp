@@ -4,6 +4,7 @@
 
 #include "core/terrain/tile_location.hpp"
 #include "platform/file_result.hpp"
+#include "sim/terrain_input/statements.hpp"
 
 namespace ridgeline::sim {
 
@@ -14,5 +15,7 @@ namespace ridgeline::sim {
 /// Domain: a file that cannot be read is Fault::file_unreadable; any other line is
 ///         Fault::file_malformed, the message begins "FILE:LINE: ".
 FileResult<std::vector<TileLocation>> coverage_list(const std::string& path);
+/// The same of a file that has been read.
+FileResult<std::vector<TileLocation>> coverage_list(const StatementFile& file);
 
 }  // namespace ridgeline::sim

@@ -6,8 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "sim/terrain_input/statements.hpp"
-
 namespace ridgeline::sim {
 namespace {
 
@@ -153,7 +151,10 @@ class EditReader {
 FileResult<std::vector<TerrainEdit>> edit_list(const std::string& path) {
   const FileResult<StatementFile> read = statements_of(path);
   if (!read.ok()) return read.problem();
-  const StatementFile& file = read.value();
+  return edit_list(read.value());
+}
+
+FileResult<std::vector<TerrainEdit>> edit_list(const StatementFile& file) {
   std::vector<TerrainEdit> edits;
   std::size_t posts_left = most_edited_posts;
   for (const Statement& statement : file.statements) {

@@ -4,6 +4,7 @@
 
 #include "core/terrain/height_tile.hpp"
 #include "platform/file_result.hpp"
+#include "sim/terrain_input/statements.hpp"
 
 namespace ridgeline::sim {
 
@@ -30,5 +31,7 @@ inline constexpr double largest_edit_step_arcsec = 3600;
 ///         any other line, Fault::file_malformed; more than most_edits or most_edited_posts is
 ///         Fault::capacity_exceeded. The message begins "FILE:LINE: ".
 FileResult<std::vector<TerrainEdit>> edit_list(const std::string& path);
+/// The same of a file that has been read.
+FileResult<std::vector<TerrainEdit>> edit_list(const StatementFile& file);
 
 }  // namespace ridgeline::sim

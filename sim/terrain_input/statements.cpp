@@ -25,9 +25,9 @@ std::string_view without_comment(std::string_view line) {
 std::vector<std::string_view> Statement::words() const {
   std::vector<std::string_view> list;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t first = text.find_first_not_of(" \t", at);
+    const std::size_t first = text.find_first_not_of(blanks, at);
     if (first == std::string_view::npos) break;
-    at = std::min(text.find_first_of(" \t", first), text.size());
+    at = std::min(text.find_first_of(blanks, first), text.size());
     list.push_back(text.substr(first, at - first));
   }
   return list;
@@ -41,20 +41,23 @@ FileResult<StatementFile> statements_of(const std::string& path) {
   const Result<MappedFile> mapping = MappedFile::open(path.c_str());
   if (!mapping.ok()) return file_problem(path, Fault::file_unreadable, std::strerror(errno));
   const auto bytes = mapping.value().bytes();
-  if (bytes.size() > most_statement_bytes) {
+  return statements_in(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+FileResult<StatementFile> statements_in(const std::string& path, std::string_view text) {
+  if (text.size() > most_statement_bytes) {
     return file_problem(path, Fault::capacity_exceeded,
                         "more than " + std::to_string(most_statement_bytes) + " bytes");
   }
   StatementFile file;
   file.path = path;
-  const char* first = reinterpret_cast<const char*>(bytes.data());
-  file.text.assign(first, first + bytes.size());
+  file.text.assign(text.begin(), text.end());
   std::string_view rest(file.text.data(), file.text.size());
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   for (int line = 1; !rest.empty(); ++line) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view text = without_comment(rest.substr(0, end));
-    if (!text.empty()) file.statements.push_back({line, text});
+    const std::string_view said = without_comment(rest.substr(0, end));
+    if (!said.empty()) file.statements.push_back({line, said});
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return file;

@@ -13,12 +13,12 @@ struct Statement {
   int line = 0;  ///< from 1
   std::string_view text;
 
-  /// The words of the text, split at spaces and tabs.
+  /// The words of the text, split at spaces, tabs and carriage returns.
   [[nodiscard]] std::vector<std::string_view> words() const;
 };
 
 /// A text file of statements, one a line: `#` starts a comment, lines without anything else are
-/// passed over, a carriage return at the end of a line does not count, nor a byte order mark.
+/// passed over, a carriage return is a blank, and a byte order mark does not count.
 /// Owner: the statements view `text`; move-only.
 struct StatementFile {
   std::string path;
@@ -41,6 +41,9 @@ inline constexpr std::size_t most_statement_bytes = std::size_t{8} << 20U;
 /// Reads a file of statements. Domain: a regular file, else Fault::file_unreadable with the
 /// system's reason; at most most_statement_bytes, else Fault::capacity_exceeded.
 FileResult<StatementFile> statements_of(const std::string& path);
+
+/// The statements in the text of a file named `path`; as statements_of().
+FileResult<StatementFile> statements_in(const std::string& path, std::string_view text);
 
 /// A word of the file as it may stand in a message: printable, at most 24 characters, in quotes.
 [[nodiscard]] std::string shown(std::string_view word);

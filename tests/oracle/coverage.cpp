@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tests/oracle/statements.hpp"
 
@@ -40,27 +41,41 @@ std::optional<DegreeCell> cell_of(const std::string& word) {
   return DegreeCell{*south, *west};
 }
 
+DegreeCell stated_cell(const std::filesystem::path& file, const Statement& statement) {
+  if (lower(statement.words[0]) != "sea") {
+    wrong_statement(file, statement.line, "does not begin with 'sea'");
+  }
+  if (statement.words.size() != 2) {
+    wrong_statement(file, statement.line, "'sea' takes one cell, such as N46E008");
+  }
+  const std::optional<DegreeCell> cell = cell_of(lower(statement.words[1]));
+  if (!cell) {
+    wrong_statement(file, statement.line,
+                    "names no cell: N46E008 or alike, S90 to N89, W180 to E179");
+  }
+  return *cell;
+}
+
+std::vector<DegreeCell> sorted(std::vector<DegreeCell> cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
 }  // namespace
 
 std::vector<DegreeCell> read_coverage(const std::filesystem::path& file) {
   std::vector<DegreeCell> cells;
-  for_each_statement(file, [&](const Statement& statement) {
-    if (lower(statement.words[0]) != "sea") {
-      wrong_statement(file, statement.line, "does not begin with 'sea'");
-    }
-    if (statement.words.size() != 2) {
-      wrong_statement(file, statement.line, "'sea' takes one cell, such as N46E008");
-    }
-    const std::optional<DegreeCell> cell = cell_of(lower(statement.words[1]));
-    if (!cell) {
-      wrong_statement(file, statement.line,
-                      "names no cell: N46E008 or alike, S90 to N89, W180 to E179");
-    }
-    cells.push_back(*cell);
-  });
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+  for_each_statement(
+      file, [&](const Statement& statement) { cells.push_back(stated_cell(file, statement)); });
+  return sorted(std::move(cells));
+}
+
+std::vector<DegreeCell> coverage_in(const std::filesystem::path& file, std::string_view text) {
+  std::vector<DegreeCell> cells;
+  for_each_statement_in(
+      text, [&](const Statement& statement) { cells.push_back(stated_cell(file, statement)); });
+  return sorted(std::move(cells));
 }
 
 StepsPerDegree finest_steps(const std::vector<Grid>& grids) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "tests/oracle/tile.hpp"
@@ -10,6 +11,9 @@ namespace ridgeline::oracle {
 /// in order of their corners, each once. A line of it reads `sea N46E008`, in any case; `#` starts
 /// a comment. Errors: InputError naming the file and the line.
 [[nodiscard]] std::vector<DegreeCell> read_coverage(const std::filesystem::path& file);
+/// The same for the text of a file.
+[[nodiscard]] std::vector<DegreeCell> coverage_in(const std::filesystem::path& file,
+                                                  std::string_view text);
 
 /// Steps of posts in a degree; those of 3" unless said otherwise.
 struct StepsPerDegree {

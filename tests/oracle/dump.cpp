@@ -20,6 +20,7 @@ using Json = nlohmann::json;
 
 /// Beyond this a bound says nothing, and looking for the pixels within it takes for ever.
 constexpr double largest_bound_px = 1024;
+constexpr png_uint_32 largest_picture_side = 8192;
 
 std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -122,9 +123,10 @@ std::string npy_value(const std::string& file, const std::string& header, const 
   return header.substr(start, end - start + (last == ')' ? 1 : 0));
 }
 
-std::vector<float> read_npy(const std::filesystem::path& path, int width, int height) {
-  const std::string file = path.string();
-  const std::string bytes = file_text(path);
+}  // namespace
+
+std::vector<float> range_in(const std::string& file, const std::string& bytes, int width,
+                            int height) {
   if (bytes.size() < 10 || bytes.compare(0, 6, "\x93NUMPY") != 0) {
     throw InputError(file, "is not an NPY file");
   }
@@ -154,22 +156,29 @@ std::vector<float> read_npy(const std::filesystem::path& path, int width, int he
   return values;
 }
 
-void read_color(const std::filesystem::path& file, Frame& frame) {
+void take_color(const std::string& file, const std::string& bytes, Frame& frame) {
   png_image image;
   std::memset(&image, 0, sizeof image);
   image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, file.string().c_str()) == 0) {
-    throw InputError(file.string(), image.message);
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
+    throw InputError(file, image.message);
+  }
+  // A header may claim any size; memory is for pictures that a screen can have.
+  if (image.width > largest_picture_side || image.height > largest_picture_side) {
+    png_image_free(&image);
+    throw InputError(file, "is larger than any picture of a frame");
   }
   image.format = PNG_FORMAT_RGB;
   std::vector<unsigned char> pixels(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) {
-    throw InputError(file.string(), image.message);
+    throw InputError(file, image.message);
   }
   frame.color_width = static_cast<int>(image.width);
   frame.color_height = static_cast<int>(image.height);
   frame.color_crc32 = crc32_of(pixels.data(), pixels.size());
 }
+
+namespace {
 
 std::filesystem::path sibling(const std::filesystem::path& json, const char* ending) {
   return json.parent_path() / (json.stem().string() + ending);
@@ -212,8 +221,14 @@ std::vector<std::filesystem::path> frame_files(const std::filesystem::path& fold
 }
 
 Frame read_frame_header(const std::filesystem::path& json) {
+  return frame_header_in(json, file_text(json),
+                         std::filesystem::exists(sibling(json, "_range.npy")));
+}
+
+Frame frame_header_in(const std::filesystem::path& json, const std::string& text,
+                      bool has_range_file) {
   const std::string file = json.string();
-  const Json root = Json::parse(file_text(json), nullptr, false);
+  const Json root = Json::parse(text, nullptr, false);
   if (root.is_discarded() || !root.is_object()) throw InputError(file, "is not a JSON object");
   const Fields fields(file, root);
   Frame frame;
@@ -235,7 +250,7 @@ Frame read_frame_header(const std::filesystem::path& json) {
   if (frame.bound_px && *frame.bound_px > largest_bound_px) fields.wrong("bound_px", "is no bound");
   frame.proven_px = fields.real_if_any("proven_px");
   frame.geometry_px = fields.real_if_any("geometry_px");
-  frame.has_range_file = std::filesystem::exists(sibling(json, "_range.npy"));
+  frame.has_range_file = has_range_file;
   // A frame is removed because its input is not valid, so the pose may be missing there.
   if (frame.mode == Mode::removed) return frame;
   const Fields eye(file, fields.field("eye"));
@@ -260,12 +275,14 @@ Frame read_frame_header(const std::filesystem::path& json) {
 
 Frame read_frame(const std::filesystem::path& json) {
   Frame frame = read_frame_header(json);
-  read_color(sibling(json, "_color.png"), frame);
+  const std::filesystem::path color = sibling(json, "_color.png");
+  take_color(color.string(), file_text(color), frame);
   if (frame.mode == Mode::removed) return frame;
   if (!frame.has_range_file) {
     throw InputError(sibling(json, "_range.npy").string(), "is missing");
   }
-  frame.range = read_npy(sibling(json, "_range.npy"), frame.width, frame.height);
+  const std::filesystem::path range = sibling(json, "_range.npy");
+  frame.range = range_in(range.string(), file_text(range), frame.width, frame.height);
   return frame;
 }
 

@@ -55,6 +55,16 @@ struct Frame {
 /// Errors: InputError naming the file and the field.
 [[nodiscard]] Frame read_frame_header(const std::filesystem::path& json);
 
+/// The same for the text of such a file.
+[[nodiscard]] Frame frame_header_in(const std::filesystem::path& json, const std::string& text,
+                                    bool has_range_file);
+
+/// The distances in the bytes of a range file of the frame's shape; the colour image in the bytes
+/// of its file. Errors: InputError naming the file.
+[[nodiscard]] std::vector<float> range_in(const std::string& file, const std::string& bytes,
+                                          int width, int height);
+void take_color(const std::string& file, const std::string& bytes, Frame& frame);
+
 /// A whole frame.
 /// Errors: InputError naming the file: a missing or malformed range file (unless the frame is
 ///         `removed`), a shape that does not match, a missing or malformed colour image.

@@ -108,21 +108,43 @@ class EditLine {
   const Statement& statement_;
 };
 
+/// The statements of an edit file, one after the other.
+class EditFile {
+ public:
+  explicit EditFile(const std::filesystem::path& file) : file_(file) {}
+
+  void take(const Statement& statement) {
+    if (edits_.size() == most_edits) {
+      wrong_statement(file_, statement.line, "is one edit more than 64");
+    }
+    edits_.push_back(EditLine(file_, statement).parsed(posts_));
+    posts_ += edits_.back().patch.posts.size();
+  }
+
+  std::vector<Edit> in_time_order() && {
+    std::stable_sort(edits_.begin(), edits_.end(),
+                     [](const Edit& a, const Edit& b) { return a.time_s < b.time_s; });
+    return std::move(edits_);
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  std::vector<Edit> edits_;
+  std::size_t posts_ = 0;
+};
+
 }  // namespace
 
 std::vector<Edit> read_edits(const std::filesystem::path& file) {
-  std::vector<Edit> edits;
-  std::size_t posts = 0;
-  for_each_statement(file, [&](const Statement& statement) {
-    if (edits.size() == most_edits) {
-      wrong_statement(file, statement.line, "is one edit more than 64");
-    }
-    edits.push_back(EditLine(file, statement).parsed(posts));
-    posts += edits.back().patch.posts.size();
-  });
-  std::stable_sort(edits.begin(), edits.end(),
-                   [](const Edit& a, const Edit& b) { return a.time_s < b.time_s; });
-  return edits;
+  EditFile edits(file);
+  for_each_statement(file, [&](const Statement& statement) { edits.take(statement); });
+  return std::move(edits).in_time_order();
+}
+
+std::vector<Edit> edits_in(const std::filesystem::path& file, std::string_view text) {
+  EditFile edits(file);
+  for_each_statement_in(text, [&](const Statement& statement) { edits.take(statement); });
+  return std::move(edits).in_time_order();
 }
 
 TimedEdits::TimedEdits(const std::filesystem::path& file, std::vector<Edit> edits, Terrain& terrain)

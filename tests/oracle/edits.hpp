@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "tests/oracle/terrain.hpp"
@@ -20,6 +21,8 @@ struct Edit {
 /// west) or `void`, or `fill` and one of them. `#` starts a comment. Domain: at most 64 edits of
 /// 65,536 posts in all; heights -12,000 to 9000 m. Errors: InputError naming the file and the line.
 [[nodiscard]] std::vector<Edit> read_edits(const std::filesystem::path& file);
+/// The same for the text of a file.
+[[nodiscard]] std::vector<Edit> edits_in(const std::filesystem::path& file, std::string_view text);
 
 /// Keeps a terrain as it is at the time of the frame in hand.
 class TimedEdits {

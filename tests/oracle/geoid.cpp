@@ -73,10 +73,14 @@ Geoid Geoid::from_nodes(double south_deg, double west_deg, double lat_step_deg, 
 }
 
 Geoid Geoid::read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path.string(), "cannot be opened");
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return in(path, bytes);
+}
+
+Geoid Geoid::in(const std::filesystem::path& path, const std::string& bytes) {
   const std::string file = path.string();
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(file, "cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   Geoid geoid;
   if (bytes.starts_with("P5")) {
     const PgmHeader header = pgm_header(file, bytes);
@@ -125,12 +129,17 @@ GeoidPatch Geoid::patch(double lat_deg, double lon_deg) const {
   GeoidPatch patch;
   if (is_none()) return patch;
   const bool wraps = std::abs(columns_ * lon_step_deg_ - 360.0) < 0.5 * lon_step_deg_;
-  const int row = std::clamp(static_cast<int>(std::floor((lat_deg - south_deg_) / lat_step_deg_)),
-                             0, rows_ - 2);
-  const double turns = std::floor((lon_deg - west_deg_) / 360.0);
+  // Held within the grid before they become whole numbers: a header may give any step.
+  const int row = static_cast<int>(
+      std::clamp(std::floor((lat_deg - south_deg_) / lat_step_deg_), 0.0, rows_ - 2.0));
+  // A longitude that rounding puts just west of the grid is on its edge, not a turn further on.
+  const double turns = std::floor((lon_deg - west_deg_) / 360.0 + 1e-12);
   const double lon = lon_deg - 360.0 * turns;
-  int column = static_cast<int>(std::floor((lon - west_deg_) / lon_step_deg_));
-  column = wraps ? std::clamp(column, 0, columns_ - 1) : std::min(column, columns_ - 1);
+  const double east_steps = (lon - west_deg_) / lon_step_deg_;
+  int column = static_cast<int>(std::clamp(std::floor(east_steps), 0.0, columns_ - 1.0));
+  // The last column of a grid that ends there belongs to the cells before it.
+  const bool is_on_edge = !wraps && east_steps - (columns_ - 1) <= 1e-9;
+  if (is_on_edge && column == columns_ - 1) --column;
   const int next = wraps ? (column + 1) % columns_ : column + 1;
   patch.west_deg = west_deg_ + 360.0 * turns + column * lon_step_deg_;
   patch.south_deg = south_deg_ + row * lat_step_deg_;

@@ -34,6 +34,9 @@ class Geoid {
   /// Errors: InputError naming the file.
   [[nodiscard]] static Geoid read(const std::filesystem::path& file);
 
+  /// The same for the bytes of a file.
+  [[nodiscard]] static Geoid in(const std::filesystem::path& file, const std::string& bytes);
+
   /// A grid of given nodes, for tests. Shape: rows x columns, row 0 the south row.
   [[nodiscard]] static Geoid from_nodes(double south_deg, double west_deg, double lat_step_deg,
                                         double lon_step_deg, int rows, int columns,

@@ -40,8 +40,13 @@ std::vector<std::string_view> words_of(std::string_view line) {
 
 void for_each_statement(const std::filesystem::path& file,
                         const std::function<void(const Statement&)>& take) {
-  const std::string text = text_of(file);
-  std::string_view rest = text;
+  for_each_statement_in(text_of(file), take);
+}
+
+void for_each_statement_in(std::string_view rest,
+                           const std::function<void(const Statement&)>& take) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   for (int line = 1; !rest.empty(); ++line) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const Statement statement{line, words_of(rest.substr(0, end))};

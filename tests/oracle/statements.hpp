@@ -14,12 +14,16 @@ struct Statement {
 };
 
 /// Reads a text file of one statement a line: `#` starts a comment, lines without a word are left
-/// out, words end at spaces, tabs and carriage returns.
+/// out, words end at spaces, tabs and carriage returns; a byte order mark is no word.
 /// Domain: at most 16 MiB.
 /// Owner:  the words are valid inside `take` only.
 /// Errors: InputError naming the file.
 void for_each_statement(const std::filesystem::path& file,
                         const std::function<void(const Statement&)>& take);
+
+/// The same for the text of a file, of any length.
+void for_each_statement_in(std::string_view text,
+                           const std::function<void(const Statement&)>& take);
 
 /// Throws the InputError `FILE: line N: FAULT`.
 [[noreturn]] void wrong_statement(const std::filesystem::path& file, int line,

@@ -43,6 +43,7 @@ std::string lower(std::string text) {
 /// A run of digits as a number, or -1.
 int number(std::string_view digits) {
   int value = -1;
+  if (digits.starts_with('-')) return -1;  // a minus zero is no run of digits either
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (fault != std::errc() || end != digits.data() + digits.size() || value < 0) return -1;
   return value;
@@ -174,7 +175,10 @@ Tile read_hgt(const std::filesystem::path& file) {
 }
 
 Tile read_dted(const std::filesystem::path& file) {
-  const Bytes bytes = file_bytes(file);
+  return dted_in(file, file_bytes(file));
+}
+
+Tile dted_in(const std::filesystem::path& file, const Bytes& bytes) {
   Tile tile = dted_without_posts(file, bytes);
   const std::size_t record = dted_record_bytes(tile);
   tile.posts.resize(tile.index(tile.rows, 0));

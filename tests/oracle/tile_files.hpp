@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "tests/oracle/tile.hpp"
 
@@ -28,6 +29,9 @@ namespace ridgeline::oracle {
 /// names another cell is an error.
 /// Source: MIL-PRF-89020B.
 [[nodiscard]] Tile read_dted(const std::filesystem::path& file);
+/// The same for the bytes of a file.
+[[nodiscard]] Tile dted_in(const std::filesystem::path& file,
+                           const std::vector<unsigned char>& bytes);
 
 /// A geographic GeoTIFF through GDAL. GDAL places the corner of the first pixel whatever the
 /// file says about points and areas, so a post is half a pixel inside it. Posts are snapped to

@@ -91,7 +91,7 @@ std::uint32_t counted(const UpdateCounters& c) {
   return c.decoded + c.ignored + c.not_data + c.other_channel + c.other_source + c.bad_length +
          c.type_mismatch + c.out_of_range + c.not_finite + c.bad_parity + c.no_computed_data +
          c.functional_test + c.failure_warning + c.suspect + c.unpaired_words + c.implausible +
-         c.out_of_order + c.from_future;
+         c.out_of_order + c.from_future + c.duplicated + c.replayed;
 }
 
 class AnyProtocol : public ::testing::TestWithParam<BusProtocol> {};
@@ -177,8 +177,8 @@ Moment moment(int step, double sign) {
   return {sign * (46.5 + 0.0005 * t),
           sign * (8.0 + 0.0007 * t),
           3000.0 + 2.0 * t,
-          62.0,
-          43.0 + t,
+          77.2,  // the speed and track of these steps: what contradicts them is refused
+          sign > 0.0 ? 43.94 : 223.94,
           2.0,
           15.0 * std::sin(t),
           3.0,

@@ -177,6 +177,9 @@ TEST_F(GeoidFiles, damaged_pgm_header_is_refused) {
   refused("# Offset -108", "# Offset inf", "Offset");
   refused("# Origin 90N 0E", "# Origin 90S 0E", "Origin");
   refused("65535", "255", "header");
+  // Found by fuzzing: the display took these for what the oracle does not.
+  refused("65535", "65535\t", "header");
+  refused("# Scale 0.003", "# Scale\r-0.003", "Scale");
   refused("24 13", "24 x3", "header");
   refused("24 13", "-24 13", "header");
   refused("24 13", "1 13", "header");
@@ -196,6 +199,8 @@ TEST_F(GeoidFiles, damaged_gtx_header_is_refused) {
   refused({-90, -180, 15, 15, 14, 24}, "GTX");
   refused({-90, -180, 15, 15, 12, 24}, "its header asks for");
   refused({-90, -180, 0, 15, 13, 24}, "GTX");
+  refused({-90, -180, 1e-300, 15, 13, 24}, "GTX");
+  refused({-90, -180, 15, 1e-5, 13, 24}, "GTX");
   refused({-90, -180, 15, -15, 13, 24}, "GTX");
   refused({-90, -180, 15, 15, 1, 24}, "GTX");
   refused({-90, 1e9, 15, 15, 13, 24}, "GTX");

@@ -77,6 +77,9 @@ TEST_F(GeotiffRefusal, georeference_that_is_no_grid_of_posts) {
   recipe.corner_and_steps = {9, -0.03, 0, 47, 0, -0.03};
   write(recipe);
   expect_refused(Fault::tile_unsupported, "mirrored");
+  recipe.corner_and_steps = {8, 0.03, 0, 47, 0, -1e-7};
+  write(recipe);
+  expect_refused(Fault::tile_unsupported, "apart");
   recipe.corner_and_steps = {8, 0.03, 0, 91, 0, -0.03};
   write(recipe);
   expect_refused(Fault::tile_unsupported, "poles");

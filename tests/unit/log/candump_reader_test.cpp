@@ -50,6 +50,24 @@ TEST(CandumpReader, counts_every_line_under_one_heading) {
                                 path.string() + ":11: identifier has neither 3 nor 8 digits"}));
 }
 
+TEST(CandumpReader, reads_memory_in_pieces_as_it_reads_a_file) {
+  const std::string text = "(1.5) can0 123#01\r\nbad\n(2.5) can1 7FF##3AABB\n# c";
+  CandumpReader whole = CandumpReader::over(text, "log");
+  while (whole.next()) {
+  }
+  EXPECT_EQ(whole.statistics().lines, 4U);
+  EXPECT_EQ(whole.statistics().frames(), 2U);
+  EXPECT_EQ(whole.notes().problems,
+            std::vector<std::string>{"log:2: neither a frame nor a comment"});
+  for (const std::size_t piece : {1U, 2U, 5U}) {
+    CandumpReader reader = CandumpReader::over(text, "log", {LogFormat::by_content, false}, piece);
+    EXPECT_EQ(reader.next()->id, 0x123U);
+    EXPECT_EQ(reader.next()->data[1], 0xbb);
+    EXPECT_FALSE(reader.next());
+    EXPECT_EQ(reader.statistics(), whole.statistics()) << piece;
+  }
+}
+
 TEST(CandumpReader, keeps_only_the_first_problems_but_counts_all) {
   const TemporaryFolder folder;
   std::string text = "(1.0) can0 123#\n";

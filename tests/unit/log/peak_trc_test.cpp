@@ -117,6 +117,13 @@ TEST(PeakTrc, fd_rows_have_length_codes_or_bytes) {
   EXPECT_EQ(raw.frame.length, 8);
 }
 
+/// Found with the properties of the fuzz target: it became a frame that no bus carries.
+TEST(PeakTrc, a_remote_row_of_can_fd_is_malformed) {
+  PeakTrcParser parser = parser_of("2.1");
+  EXPECT_EQ(parser.line("1 1.0 FD 1 0300 Rx - 9 RTR").text, "a remote frame is not CAN FD");
+  EXPECT_EQ(parser.line("1 1.0 DT 1 0300 Rx - 2 RTR").kind, Kind::frame);
+}
+
 TEST(PeakTrc, rows_about_the_bus_are_error_frames_and_events_are_comments) {
   PeakTrcParser parser = parser_of("2.1");
   EXPECT_EQ(parser.line("1 1.0 ST 1 - Rx - 4 00 00 00 10").frame.id, 0x40U);

@@ -102,6 +102,11 @@ TEST(VectorAsc, frames_of_a_can_fd_channel_say_by_their_flags_what_they_are) {
   EXPECT_TRUE(remote.frame.remote);
   EXPECT_FALSE(remote.frame.fd);
   EXPECT_EQ(remote.frame.length, 5);
+  // Found by fuzzing: such a line became a frame that no bus carries.
+  for (const char* both :
+       {"1 CANFD 3 Tx 5x 0 1 5 0 1 1 1010", "1 CANFD 3 Tx 5 0 1 2 2 7 8 1 1 10"}) {
+    EXPECT_EQ(parser.line(both).kind, Kind::malformed) << both;
+  }
   std::string text = "30.5 CANFD 4 Rx 4EE 0 1 f 64";
   for (int byte = 0; byte < 64; ++byte) text += " A1";
   EXPECT_TRUE(parser.line(text + " 1331984 11 0 46").frame.fd) << "flags left 0";

@@ -57,6 +57,8 @@ TEST_F(Coverage, is_one_cell_a_line_in_any_case_with_comments) {
   const std::vector<DegreeCell> expected{{-90, -1}, {-20, -180}, {0, 0}, {46, 8}, {89, 179}};
   EXPECT_EQ(cells, expected);
   EXPECT_TRUE(read_coverage(list("")).empty());
+  // Found by fuzzing: the display takes such a list.
+  EXPECT_EQ(read_coverage(list("\xef\xbb\xbfsea N46E008")), (std::vector<DegreeCell>{{46, 8}}));
 }
 
 TEST_F(Coverage, names_the_file_and_the_line_of_a_malformed_statement) {

@@ -134,6 +134,24 @@ TEST_F(Dump, a_missing_or_broken_image_is_refused_by_name) {
   EXPECT_NE(refusal().find("000042_color.png"), std::string::npos);
 }
 
+/// Found by fuzzing: memory was taken for whatever size the header claims.
+TEST_F(Dump, an_image_larger_than_any_screen_is_refused_before_it_is_read) {
+  std::string png;
+  {
+    std::ifstream in(color(), std::ios::binary);
+    png.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  constexpr std::size_t header_at = 12, header_bytes = 17;
+  png.replace(header_at + 4, 8, std::string("\0\x0f\x42\x40\0\x0f\x42\x40", 8));
+  const auto* header = reinterpret_cast<const unsigned char*>(png.data()) + header_at;
+  const std::uint32_t crc = crc32_of(header, header_bytes);
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    png[header_at + header_bytes + byte] = static_cast<char>(crc >> (24 - 8 * byte));
+  }
+  std::ofstream(color(), std::ios::binary) << png;
+  EXPECT_NE(refusal().find("000042_color.png: is larger than"), std::string::npos) << refusal();
+}
+
 TEST_F(Dump, a_folder_without_frames_is_refused) {
   EXPECT_THROW((void)frame_files(folder_.path() / "none"), InputError);
   std::filesystem::rename(json(), folder_.path() / "42.json");

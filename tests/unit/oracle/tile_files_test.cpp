@@ -237,6 +237,29 @@ TEST(GeoidFiles, pgm_is_bilinear_from_the_north_and_wraps) {
   EXPECT_THROW((void)Geoid::read(folder.path() / "short.pgm"), InputError);
 }
 
+/// Found by fuzzing: rounding put such a place a turn further on, or the edge outside; N was 0
+/// there.
+TEST(GeoidFiles, a_place_on_the_edge_of_a_grid_has_its_post) {
+  const Geoid geoid = Geoid::from_nodes(46, 8, 0.5, 0.5, 3, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  EXPECT_NEAR(geoid.at(46.5, 9), 6, 1e-9);
+  EXPECT_NEAR(geoid.at(46.5, 8), 4, 1e-9);
+  EXPECT_NEAR(geoid.at(46.5, 8 - 1e-13), 4, 1e-9);
+  EXPECT_NEAR(geoid.at(46.5, 368 - 1e-13), 4, 1e-9);
+  EXPECT_EQ(geoid.at(46.5, 9.001), 0);
+}
+
+TEST(GeoidFiles, a_step_of_any_size_is_divided_by) {
+  const Geoid geoid = Geoid::from_nodes(46, 8, 1e-310, 1e-310, 2, 2, {1, 1, 1, 1});
+  EXPECT_EQ(geoid.patch(47, 8).south_deg, 46);
+  EXPECT_EQ(geoid.patch(45, 9).south_deg, 46);
+}
+
+TEST(TileFiles, a_minus_zero_names_no_cell) {
+  EXPECT_TRUE(cell_in_name("S00W180.hgt").has_value());
+  EXPECT_FALSE(cell_in_name("S-0W180.hgt").has_value());
+  EXPECT_FALSE(cell_in_name("S00W-00.hgt").has_value());
+}
+
 TEST(GeoidFiles, gtx_is_big_endian_from_the_south) {
   const scenes::TemporaryFolder folder;
   std::string bytes;

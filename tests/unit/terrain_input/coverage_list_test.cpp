@@ -35,6 +35,7 @@ TEST(CoverageList, corners_of_the_world_are_cells) {
 TEST(CoverageList, comments_blank_lines_and_line_ends_are_free) {
   EXPECT_EQ(cells_of("\xef\xbb\xbf# the gulf\r\n\r\n \t \n  sea \t N10E010  # deep\r\nSEA N11E010"),
             (Cells{{10, 10}, {11, 10}}));
+  EXPECT_EQ(cells_of("sea\rN10E010\n"), (Cells{{10, 10}})) << "the oracle reads it so";
   EXPECT_EQ(cells_of(""), Cells{});
   EXPECT_EQ(cells_of("#sea N10E010"), Cells{});
 }

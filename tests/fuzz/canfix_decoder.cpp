@@ -1,0 +1,7 @@
+// CAN-FIX frames, decoded one after the other. An input is a profile and frames (bus_input.hpp).
+#include "tests/fuzz/decoder_properties.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ridgeline::fuzz::check_decoder(data, size, ridgeline::BusProtocol::canfix);
+  return 0;
+}
