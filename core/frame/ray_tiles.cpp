@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/frame/ray_witness.hpp"
 #include "core/frame/steep_ground.hpp"
@@ -159,19 +160,18 @@ void TilePlan::choose_shapes() {
 }
 
 /// Gives tiles of plain sky one ray and puts them behind the others; how many others there are.
-/// Only they have one: ground in a tile as small as its block gets a ray for every pixel.
-int part_sky(std::span<RayTile> tiles, std::span<const float> steepness) {
+int part_sky(std::span<RayTile> tiles, std::span<float> steepness) {
+  std::size_t ground = 0;
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     if (steepness[k] == no_ground) {
       tiles[k].block = tiles[k].size;
-    } else if (tiles[k].block == tiles[k].size) {
-      tiles[k].block = RayTile::pair(1, 1);
+      continue;
     }
+    std::swap(tiles[ground], tiles[k]);
+    std::swap(steepness[ground], steepness[k]);
+    ++ground;
   }
-  const auto sky = std::partition(tiles.begin(), tiles.end(), [](const RayTile& tile) {
-    return tile.block != tile.size || tile.size == RayTile::pair(1, 1);
-  });
-  return static_cast<int>(sky - tiles.begin());
+  return static_cast<int>(ground);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
 
 #include "shaders/frame_block.h"
 
@@ -16,6 +18,10 @@ Result<TileList> TileList::make(int capacity) {
   if (!records) return records.fault();
   list.records_ = std::move(records).value();
   const auto count = static_cast<std::uint32_t>(capacity);
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  list.vertices_ = VertexArray(name);
+  glBindVertexArray(name);
   auto corners = make_buffer(indices, count * 6 * sizeof(std::uint32_t), GL_STATIC_DRAW);
   if (!corners) return corners.fault();
   list.corners_ = std::move(corners).value();
@@ -24,6 +30,7 @@ Result<TileList> TileList::make(int capacity) {
     const std::array<std::uint32_t, 6> two{v, v + 1, v + 2, v + 2, v + 1, v + 3};
     glBufferSubData(indices, static_cast<GLintptr>(k * sizeof two), sizeof two, two.data());
   }
+  glBindVertexArray(0);
   return list;
 }
 
@@ -47,9 +54,10 @@ void TileList::write(int first, std::span<const RayTile> records) const {
 
 void TileList::draw(int first, int count) const {
   bind();
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, corners_.name());
+  glBindVertexArray(vertices_.name());
   const std::size_t offset = 6 * sizeof(std::uint32_t) * static_cast<std::size_t>(first);
   glDrawElements(GL_TRIANGLES, 6 * count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+  glBindVertexArray(0);
 }
 
 }  // namespace ridgeline

@@ -24,6 +24,7 @@ class TileList {
  private:
   Texture records_;
   Buffer corners_;
+  VertexArray vertices_;  ///< holds the corners, so that no other draw meets them
 };
 
 }  // namespace ridgeline

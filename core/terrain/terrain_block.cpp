@@ -8,6 +8,7 @@
 
 #include "core/base/assert.hpp"
 #include "core/geo/local_frame.hpp"
+#include "core/terrain/ground_part.hpp"
 #include "core/terrain/polar_region.hpp"
 #include "core/terrain/void_floor.hpp"
 
@@ -32,11 +33,6 @@ bool is_void(float post) {
 /// Up to where a post reaches: its height, or its floor.
 float top_of(float post) {
   return is_void(post) ? post + void_offset_m : post;
-}
-
-/// A slope that is none too small, from its square.
-float rounded_up(float slope2) {
-  return 1.0001F * std::sqrt(slope2);
 }
 
 /// The fine posts of a block with its margin, and what is made of them cell by cell.
@@ -83,10 +79,6 @@ class Builder {
   void settle_cell(int cx, int cy, Corners& low, Corners& high) const;
   void settle_post(int x, int y, float low, float high);
   [[nodiscard]] float highest_of_cell(int cx, int cy) const;
-  /// Square of the largest slope of the fine cells from (x0, y0) on.
-  [[nodiscard]] float steepest2(int x0, int y0, int side, float per_east, float per_north) const;
-  [[nodiscard]] GroundPart ground_part(int x0, int y0, int side, float per_east,
-                                       float per_north) const;
   /// Lowest known true height of the block's own cells, their borders included.
   [[nodiscard]] float lowest() const;
 
@@ -288,48 +280,18 @@ void Builder::fill(TerrainBlock& block) const {
   block.facts.highest_m = block.highest.back();
 }
 
-float Builder::steepest2(int x0, int y0, int side, float per_east, float per_north) const {
-  float steepest = 0;
-  for (int y = y0; y < y0 + side; ++y) {
-    for (int x = x0; x < x0 + side; ++x) {
-      const float a = at(x, y), b = at(x + 1, y), c = at(x, y + 1), d = at(x + 1, y + 1);
-      if (with_voids_ && is_void(std::min({a, b, c, d}))) continue;
-      // A bilinear surface is nowhere steeper, along either axis, than at its edges.
-      const float east = per_east * std::max(std::abs(b - a), std::abs(d - c));
-      const float north = per_north * std::max(std::abs(c - a), std::abs(d - b));
-      steepest = std::max(steepest, east * east + north * north);
-    }
-  }
-  return steepest;
-}
-
-GroundPart Builder::ground_part(int x0, int y0, int side, float per_east, float per_north) const {
-  GroundPart part{rounded_up(steepest2(x0, y0, side, per_east, per_north)), -nothing, nothing};
-  for (int y = y0; y <= y0 + side; ++y) {
-    for (int x = x0; x <= x0 + side; ++x) {
-      const float h = at(x, y);
-      if (with_voids_ && is_void(h)) continue;
-      part.lowest_m = std::min(part.lowest_m, h);
-      part.highest_m = std::max(part.highest_m, h);
-    }
-  }
-  return part;
-}
-
 void Builder::put_ground(double east_m, double north_m, BlockFacts& facts) const {
-  constexpr int side = block_posts / residual_parts, small = block_posts / ground_parts;
-  const auto per_east = static_cast<float>(1.0 / east_m);
-  const auto per_north = static_cast<float>(1.0 / north_m);
+  constexpr int large = block_posts / residual_parts, small = block_posts / ground_parts;
+  const PostSquare fine{fine_, side_, with_voids_, static_cast<float>(1.0 / east_m),
+                        static_cast<float>(1.0 / north_m)};
   for (int part = 0; part < ground_parts * ground_parts; ++part) {
-    const int x = (part % ground_parts * small + margin) * step_;
-    const int y = (part / ground_parts * small + margin) * step_;
+    const int x = part % ground_parts * small + margin, y = part / ground_parts * small + margin;
     facts.ground[static_cast<std::size_t>(part)] =
-        ground_part(x, y, small * step_, per_east, per_north);
+        ground_part(fine, {x * step_, y * step_, small * step_});
   }
   for (int part = 0; part < residual_parts * residual_parts; ++part) {
-    const int x = part % residual_parts * side * step_, y = part / residual_parts * side * step_;
-    const float steepest = steepest2(x, y, (side + 2 * margin) * step_, per_east, per_north);
-    const float slope = rounded_up(steepest);
+    const int x = part % residual_parts * large, y = part / residual_parts * large;
+    const float slope = steepest_slope(fine, {x * step_, y * step_, (large + 2 * margin) * step_});
     facts.part_steepness[static_cast<std::size_t>(part)] = slope;
     facts.steepness = std::max(facts.steepness, slope);
   }

@@ -196,7 +196,8 @@ void Session::warm_up() {
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
-                          {std::span(ray_tiles_).first(1), 1});
+                          {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
+  std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
   renderer_->shade(nothing, shader::StyleBlock{});
   static_cast<void>(renderer_->read_counters());
