@@ -1,5 +1,6 @@
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -25,8 +26,12 @@ class Problems {
     }
   }
   [[nodiscard]] bool none() const { return !first_line_; }
+  /// Names of keys and texts may hold a line feed; a message is one line all the same.
   [[nodiscard]] FileProblem told(const std::string& path) const {
-    return {Fault::file_malformed, path, path + ":" + std::to_string(*first_line_) + ": " + what_};
+    std::string what = what_;
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, '?');
+    return {Fault::file_malformed, path, path + ":" + std::to_string(*first_line_) + ": " + what};
   }
 
  private:
@@ -242,6 +247,10 @@ FileResult<DisplayConfig> load_config(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) return file_problem(path, Fault::file_unreadable, {});
+  return config_in(path, text);
+}
+
+FileResult<DisplayConfig> config_in(const std::string& path, const std::string& text) {
   const toml::parse_result parsed = toml::parse(text, path);
   Problems problems;
   if (!parsed) {

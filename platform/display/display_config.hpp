@@ -96,6 +96,8 @@ struct DisplayConfig {
 /// required ones are there, and together they make sense. The message is `FILE:LINE: SECTION.KEY:
 /// what is wrong`, of the first problem in the file. Allocates: boot time only.
 [[nodiscard]] FileResult<DisplayConfig> load_config(const std::string& path);
+/// The same for the text of a file named `path`.
+[[nodiscard]] FileResult<DisplayConfig> config_in(const std::string& path, const std::string& text);
 
 /// What the parts are told. Owner: texts view `config`.
 [[nodiscard]] FrameSettings frame_settings(const DisplayConfig& config);

@@ -165,6 +165,14 @@ TEST_F(ConfigFile, unknown_keys_and_sections_are_refused_with_their_line) {
   EXPECT_NE(load().problem().message.find("zebra: there is no such section"), std::string::npos);
 }
 
+/// Found by fuzzing: the message had two lines, the second of the file's own choosing.
+TEST_F(ConfigFile, a_line_feed_in_a_name_does_not_reach_the_message) {
+  write_text("\"a\\n\\u001bb\" = 1\n");
+  const auto config = load();
+  ASSERT_FALSE(config.ok());
+  EXPECT_EQ(config.problem().message, path_ + ":1: a??b: there is no such section");
+}
+
 TEST_F(ConfigFile, what_is_no_toml_is_refused_with_its_line) {
   write_text("[picture]\nwidth_px = 640\nheight_px = = 3\n");
   EXPECT_EQ(load().problem().message.rfind(path_ + ":3: ", 0), 0u) << load().problem().message;
