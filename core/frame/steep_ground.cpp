@@ -248,6 +248,12 @@ void Marking::mark_block(const HeldBlock& block) {
     const double off_axis_rad = std::acos(std::clamp(p.z / far_m, -1.0, 1.0));
     if (off_axis_rad - spread_rad > half_diagonal_rad_ + beside_rad) return;
   }
+  // Under a floor every ray begins in unknown ground, whatever shows of the floor.
+  const bool within = glm::length(glm::dvec2(way.xyz)) < facts.radius_m + slip_m;
+  if (unknown && within && local_.eye.height_m < static_cast<double>(facts.highest_m) + slip_m) {
+    mark({0, 0, tiles_.across.count() - 1, tiles_.down.count() - 1}, any_steepness);
+    return;
+  }
   const BlockPlace place = place_of(block, way.xyz);
   if (uncertain) mark_uncertain(block, place, unknown);
   if (unknown) return;

@@ -79,7 +79,7 @@ class Builder {
   void settle_cell(int cx, int cy, Corners& low, Corners& high) const;
   void settle_post(int x, int y, float low, float high);
   [[nodiscard]] float highest_of_cell(int cx, int cy) const;
-  /// Lowest known true height of the block's own cells, their borders included.
+  /// Lowest true height or floor of the block's own cells, their borders included.
   [[nodiscard]] float lowest() const;
 
   int level_, step_, side_;
@@ -186,7 +186,7 @@ float Builder::lowest() const {
   float lowest = -nothing;
   for (int y = margin * step_; y <= (margin + block_posts) * step_; ++y) {
     for (int x = margin * step_; x <= (margin + block_posts) * step_; ++x) {
-      if (!is_void(at(x, y))) lowest = std::min(lowest, at(x, y));
+      lowest = std::min(lowest, top_of(at(x, y)));  // floors as well: their walls begin there
     }
   }
   return lowest;  // settled posts lie between true ones
