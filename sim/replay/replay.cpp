@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/frame/frame_input.hpp"
 #include "core/state/ownship_pose.hpp"
 #include "core/state/ownship_update.hpp"
 #include "sim/log/candump_reader.hpp"
@@ -40,27 +41,13 @@ class LogPlayer {
   int decoded_ = 0;
 };
 
-bool has_value(const PoseValue& value) {
-  return value.validity != Validity::missing && value.validity != Validity::reference_unknown;
-}
-
 FrameInput input_of(const OwnshipPose& pose, const GroundCheck& ground, std::int64_t time_ns,
                     const ReplayOptions& options, bool derived) {
-  FrameInput input;
-  input.time_ns = time_ns;
-  input.availability = availability(pose, ground);
+  FrameInput input = frame_input(pose, ground, time_ns);
   if (pose.heading_source == HeadingSource::heading && options.heading_assumed) {
     add_reason(input.availability, Reason::heading_reference_assumed);
   }
   if (derived) add_reason(input.availability, Reason::attitude_derived);
-  if (has_value(pose.latitude_deg)) {
-    input.eye = {pose.latitude_deg.value, pose.longitude_deg.value, pose.height_m.value};
-  }
-  const bool level = has_value(pose.roll_deg) && has_value(pose.pitch_deg);
-  input.attitude_valid =
-      pose.roll_deg.validity == Validity::valid && pose.pitch_deg.validity == Validity::valid;
-  if (level) input.attitude = {pose.roll_deg.value, pose.pitch_deg.value, 0.0};
-  if (has_value(pose.heading_deg)) input.attitude.heading_deg = pose.heading_deg.value;
   return input;
 }
 

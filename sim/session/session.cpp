@@ -32,10 +32,6 @@ void print_shader_log(std::string_view program, std::string_view log) {
                static_cast<int>(log.size()), log.data());
 }
 
-double lookup(const void* context, double latitude_deg, double longitude_deg) {
-  return undulation_m(*static_cast<const GeoidGrid*>(context), latitude_deg, longitude_deg);
-}
-
 /// Whether the posts of an edit are posts of a tile of the same steps.
 bool same_posts(const PostGrid& edit, const PostGrid& tile) {
   constexpr double same_step = 1e-6, same_post = 1e-3;
@@ -61,51 +57,34 @@ void draw_with_method(void* method, const RangeScene& scene) {
 
 Outcome Session::open(const SceneOptions& options, const GeodeticPosition& first) {
   options_ = options;
-  std::vector<TileLocation> sea;
+  SceneSettings settings;
+  settings.terrain_folder = options.terrain_folder;
+  settings.geoid = options.geoid;
+  settings.extra_tiles = &geotiff_;
+  settings.frame = options.settings;
+  using From = SceneOptions::Arrival;
+  settings.arrival = options.arrival == From::as_ready      ? BlockWorker::Arrival::as_ready
+                     : options.arrival == From::as_recorded ? BlockWorker::Arrival::as_recorded
+                                                            : BlockWorker::Arrival::in_step;
+  settings.terrain_gpu_bytes = options.terrain_gpu_bytes;
+  settings.read_delay_us = options.read_delay_us;
   if (!options.coverage_file.empty()) {
     auto list = coverage_list(options.coverage_file);
     if (!list) return {list.problem().fault, list.problem().message};
-    sea = std::move(list).value();
+    settings.sea = std::move(list).value();
   }
-  auto folder = TerrainFolder::open(options.terrain_folder, &geotiff_, sea);
-  if (!folder) return {folder.problem().fault, folder.problem().message};
-  folder_ = std::move(folder).value();
-  if (options.geoid != "none") {
-    auto geoid = load_geoid(options.geoid);
-    if (!geoid) return {geoid.problem().fault, geoid.problem().message};
-    geoid_ = std::move(geoid).value();
-  }
-  geoid_grid_ = geoid_.grid();
-  if (Outcome opened = open_folder(first); !opened.ok()) return opened;
-  const GeoBox near = range_box(first.latitude_deg, first.longitude_deg, options.settings.range_m);
-  const double far_floor = far_floor_m(*folder_, near);
-  if (!folder_->any_usable()) {
-    return {folder_->refused().front().fault, folder_->refused().front().message};
+  if (const FileProblem problem = scene_.open_files(settings, first);
+      problem.fault != Fault::none) {
+    return {problem.fault, problem.message};
   }
   if (Outcome opened = open_edits(); !opened.ok()) return opened;
   if (Outcome opened = open_renderer(); !opened.ok()) return opened;
-  open_terrain(far_floor);
+  scene_.open_terrain(core_edits_);
   if (options.method.name.empty() || is_own_method(options.method)) return {};
   std::string problem;
   auto method = make_method(options.method, problem);
   if (method == nullptr) return {Fault::file_malformed, problem};
   use(&keep(std::move(method)));
-  return {};
-}
-
-Outcome Session::open_folder(const GeodeticPosition& first) {
-  if (!folder_->any_usable()) {
-    const FileProblem& first_problem = folder_->refused().front();
-    return {first_problem.fault, first_problem.message};
-  }
-  const std::vector<PostGrid> grids = folder_->grids();
-  lattice_ = lattice_of(grids, first);
-  const double range_m = options_.settings.range_m;
-  const GeoBox cap = range_box(90.0 - polar_leave_deg(range_m), 0.0, range_m);
-  polar_ = std::any_of(grids.begin(), grids.end(), [&](const PostGrid& grid) {
-    return std::max(grid.north_deg(), -grid.south_deg) > cap.south_deg;
-  });
-  window_ = window_sizes(lattice_, first.latitude_deg, range_m, options_.terrain_gpu_bytes, polar_);
   return {};
 }
 
@@ -115,8 +94,8 @@ Outcome Session::open_edits() {
   auto list = edit_list(options_.edit_file);
   if (!list) return {list.problem().fault, list.problem().message};
   edits_ = std::move(list).value();
-  std::vector<PostGrid> tiles = folder_->grids();
-  const std::vector<PostGrid> sea = folder_->sea_grids();
+  std::vector<PostGrid> tiles = scene_.folder().grids();
+  const std::vector<PostGrid> sea = scene_.folder().sea_grids();
   tiles.insert(tiles.end(), sea.begin(), sea.end());
   for (const TerrainEdit& edit : edits_) {
     const bool on_posts = std::any_of(tiles.begin(), tiles.end(), [&](const PostGrid& tile) {
@@ -138,73 +117,18 @@ void Session::apply_edits(double time_s) {
     ++edits_applied_;
   }
   if (edits_applied_ == before) return;
-  terrain_->edit(std::span(edit_grids_).subspan(before, edits_applied_ - before), *renderer_);
-}
-
-void Session::open_terrain(double far_floor) {
-  const GeoidLookup geoid{geoid_.name() == "none" ? nullptr : lookup, &geoid_grid_};
-  options_.settings.geoid = geoid;
-  using From = SceneOptions::Arrival;
-  const auto arrival = options_.arrival == From::as_ready      ? BlockWorker::Arrival::as_ready
-                       : options_.arrival == From::as_recorded ? BlockWorker::Arrival::as_recorded
-                                                               : BlockWorker::Arrival::in_step;
-  worker_ = std::make_unique<BlockWorker>(
-      *folder_, BlockWorker::Settings{lattice_, window_.levels, far_floor, geoid, arrival, polar_,
-                                      options_.read_delay_us});
-  worker_->know_edits(core_edits_);
-  held_.resize(static_cast<std::size_t>(window_.levels) * window_.blocks());
-  finest_posts_.resize(static_cast<std::size_t>(window_.columns()) * window_.rows());
-  finest_rests_.resize(finest_posts_.size());
-  terrain_.emplace(*worker_, lattice_, window_, held_, FinestPosts{finest_posts_, finest_rests_},
-                   polar_ ? options_.settings.range_m : 0.0);
+  scene_.terrain().edit(std::span(edit_grids_).subspan(before, edits_applied_ - before),
+                        scene_.renderer());
 }
 
 Outcome Session::open_renderer() {
   auto context = EglContext::make();
   if (!context) return {context.fault(), "graphics: " + std::string(fault_text(context.fault()))};
   context_ = std::move(context).value();
-  const ImageGeometry& image = options_.settings.image;
-  const RenderSizes sizes{image.width_px, image.height_px, window_, limits::max_planes,
-                          limits::max_rows};
-  auto renderer = Renderer::make(sizes, context_->timer_functions(), print_shader_log);
-  if (!renderer) {
-    return {renderer.fault(), "graphics: " + std::string(fault_text(renderer.fault()))};
-  }
-  renderer_ = std::move(renderer).value();
-  const auto pixels = static_cast<std::size_t>(image.width_px) * image.height_px;
-  planes_.resize(sizes.planes);
-  slopes_.resize(sizes.rows);
-  text_.resize(pixels);
-  const auto tiles =
-      static_cast<std::size_t>(most_tiles(image.width_px)) * most_tiles(image.height_px);
-  ray_tiles_.resize(tiles);
-  tile_steepness_.resize(tiles);
-  tile_shapes_.resize(tiles);
-  tile_looks_.resize(tiles);
-  block_bearing_ = std::make_unique<BlockBearing>();
-  range_words_.resize(Renderer::scratch_words(image.width_px, image.height_px));
-  rgba_.resize(4 * pixels);
-  warm_up();
+  const Status made = scene_.open_renderer(context_->timer_functions(), print_shader_log);
+  if (!made) return {made.fault(), "graphics: " + std::string(fault_text(made.fault()))};
+  rgba_.resize(4 * scene_.pixels());
   return {};
-}
-
-/// Runs every shader once over nothing. A driver compiles a shader at its first use; that belongs
-/// to boot, and its allocations are not the frame path's.
-void Session::warm_up() {
-  FrameBlocks nothing{};
-  nothing.frame.ray_origin.w = -1.0f;  // a display range that every ray has left
-  nothing.frame.window.z = 1;
-  nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
-  renderer_->upload_block(TerrainBlock{}, BlockSlot{});
-  renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
-                          {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
-  std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
-  renderer_->upload_text(text_);
-  for (const Shading shading :
-       {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
-    renderer_->shade(nothing, shader::StyleBlock{}, shading);
-  }
-  static_cast<void>(renderer_->read_counters());
 }
 
 void Session::settle_if_due(const FrameInput& input) {
@@ -213,7 +137,7 @@ void Session::settle_if_due(const FrameInput& input) {
   const bool never = options_.arrival == SceneOptions::Arrival::as_ready ||
                      options_.arrival == SceneOptions::Arrival::as_recorded;
   if (!placed || never || (settled_ && !always)) return;
-  terrain_->settle(input.eye, *renderer_);
+  scene_.settle(input.eye);
   settled_ = true;
 }
 
@@ -223,7 +147,6 @@ Session::~Session() {
 
 Picture Session::draw(const FrameInput& input, bool want_pixels) {
   Picture picture;
-  const FrameTables tables{planes_, slopes_, text_, ray_tiles()};
   double start_ms = 0, start_core_ms = 0;
   context_->make_current();
   picture.problem = prepare(input);
@@ -231,7 +154,7 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     picture.report.availability.mode = Mode::removed;
     return picture;
   }
-  FrameSettings settings = options_.settings;
+  FrameSettings settings = scene_.settings();
   if (method_ != nullptr) settings.instead = {draw_with_method, method_};
   {
     const HeapSection no_heap;  // the frame path of the module; what follows is the desktop's
@@ -240,15 +163,14 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     settle_if_due(input);
     start_core_ms = process_ms();
     start_ms = now_ms();
-    picture.report =
-        draw_frame(settings, input, *terrain_, worker_->refused_count(), tables, *renderer_);
-    picture.counts = finish_frame(*renderer_, picture.report, tables);
+    picture.report = scene_.draw(settings, input);
+    picture.counts = scene_.finish(picture.report);
     end_pace(settings, picture.report);
   }
   picture.cpu_ms = now_ms() - start_ms;
   picture.core_ms = process_ms() - start_core_ms;
   picture.since_start_ms = now_ms() - program_start_ms;
-  picture.take = worker_->last_take();
+  picture.take = scene_.worker().last_take();
   if (settings.pace != nullptr) {
     const PaceRecord& record = settings.pace->record();
     picture.plan = record.plan;
@@ -258,25 +180,21 @@ Picture Session::draw(const FrameInput& input, bool want_pixels) {
     picture.method = method_->facts();
     picture.counts.ray_cast_share = picture.method.ray_cast_share;
   }
-  picture.wanted_px = options_.settings.error_px;
-  picture.wanted_range_m = options_.settings.range_m;
+  picture.wanted_px = scene_.settings().error_px;
+  picture.wanted_range_m = scene_.settings().range_m;
   if (!want_pixels) return picture;
-  const auto pixels = text_.size();
+  const std::size_t pixels = scene_.pixels();
   if (picture.report.availability.mode != Mode::removed) {
     picture.range_m.resize(pixels);
-    renderer_->read_range(picture.range_m, range_words_);
-    if (method_ != nullptr) method_->finish_picture(*renderer_);
+    scene_.read_range(picture.range_m);
+    if (method_ != nullptr) method_->finish_picture(scene_.renderer());
   }
-  renderer_->read_colour(rgba_);
+  scene_.read_colour(rgba_);
   picture.rgb.resize(3 * pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = rgba_[4 * i + c];
   }
   return picture;
-}
-
-double Session::geoid_undulation_m(double latitude_deg, double longitude_deg) const {
-  return geoid_.name() == "none" ? 0.0 : undulation_m(geoid_grid_, latitude_deg, longitude_deg);
 }
 
 }  // namespace ridgeline::sim

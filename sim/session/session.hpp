@@ -6,11 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/frame_pipeline.hpp"
-#include "platform/block_worker.hpp"
 #include "platform/egl_context.hpp"
-#include "platform/geoid_file.hpp"
-#include "platform/terrain_folder.hpp"
+#include "platform/scene.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
 #include "sim/methods/method.hpp"
 #include "sim/output/outcome.hpp"
@@ -84,36 +81,32 @@ class Session {
   Picture draw(const FrameInput& input, bool want_pixels);
 
   /// Messages about refused tiles that were not reported yet.
-  std::vector<std::string> new_problems() { return worker_->new_problems(); }
-  [[nodiscard]] const FrameSettings& settings() const { return options_.settings; }
-  [[nodiscard]] FrameSettings& settings() { return options_.settings; }
-  [[nodiscard]] const std::string& geoid_name() const { return geoid_.name(); }
-  [[nodiscard]] double geoid_undulation_m(double latitude_deg, double longitude_deg) const;
-  [[nodiscard]] std::size_t mapped_bytes() const { return worker_->mapped_bytes(); }
-  [[nodiscard]] std::uint64_t blocks_loaded() const { return worker_->blocks_taken(); }
-  [[nodiscard]] std::size_t loader_bytes() const { return worker_->buffer_bytes(); }
+  std::vector<std::string> new_problems() { return scene_.worker().new_problems(); }
+  [[nodiscard]] const FrameSettings& settings() const { return scene_.settings(); }
+  [[nodiscard]] FrameSettings& settings() { return scene_.settings(); }
+  [[nodiscard]] const std::string& geoid_name() const { return scene_.geoid_name(); }
+  [[nodiscard]] double geoid_undulation_m(double latitude_deg, double longitude_deg) const {
+    return scene_.geoid_undulation_m(latitude_deg, longitude_deg);
+  }
+  [[nodiscard]] std::size_t mapped_bytes() const { return scene_.worker().mapped_bytes(); }
+  [[nodiscard]] std::uint64_t blocks_loaded() const { return scene_.worker().blocks_taken(); }
+  [[nodiscard]] std::size_t loader_bytes() const { return scene_.worker().buffer_bytes(); }
   /// Blocks of terrain that came in since the last call, by rounds of taking; and how many the next
   /// frame is to wait for.
-  BlockWorker::Rounds blocks_in_rounds() { return worker_->taken_in_rounds(); }
-  void expect_blocks(const BlockWorker::Rounds& rounds) { worker_->expect(rounds); }
-  [[nodiscard]] const LevelSizes& window() const { return window_; }
-  [[nodiscard]] const PostLattice& lattice() const { return lattice_; }
-  [[nodiscard]] int sea_cells() const { return folder_->sea_count(); }
-  [[nodiscard]] int idle_sea_cells() const { return folder_->idle_sea_count(); }
+  BlockWorker::Rounds blocks_in_rounds() { return scene_.worker().taken_in_rounds(); }
+  void expect_blocks(const BlockWorker::Rounds& rounds) { scene_.worker().expect(rounds); }
+  [[nodiscard]] const LevelSizes& window() const { return scene_.window(); }
+  [[nodiscard]] const PostLattice& lattice() const { return scene_.lattice(); }
+  [[nodiscard]] int sea_cells() const { return scene_.folder().sea_count(); }
+  [[nodiscard]] int idle_sea_cells() const { return scene_.folder().idle_sea_count(); }
   [[nodiscard]] const char* driver() const { return context_->description(); }
-  [[nodiscard]] TerrainKeeper& terrain() { return *terrain_; }
+  [[nodiscard]] TerrainKeeper& terrain() { return scene_.terrain(); }
 
  private:
-  Outcome open_folder(const GeodeticPosition& first);
   Outcome open_edits();
   void apply_edits(double time_s);
   void settle_if_due(const FrameInput& input);
   Outcome open_renderer();
-  void open_terrain(double far_floor);
-  void warm_up();
-  [[nodiscard]] RayTileTables ray_tiles() {
-    return {ray_tiles_, tile_steepness_, tile_shapes_, tile_looks_, block_bearing_.get()};
-  }
   [[nodiscard]] MethodTerrain method_terrain();
 
   /// The state of the terrain window that a method was built from.
@@ -133,33 +126,13 @@ class Session {
 
   SceneOptions options_;
   GeotiffReader geotiff_;
-  std::optional<TerrainFolder> folder_;
-  GeoidFile geoid_;
-  GeoidGrid geoid_grid_;
   std::optional<EglContext> context_;
-  std::optional<Renderer> renderer_;
-  PostLattice lattice_;
-  LevelSizes window_;
-  std::unique_ptr<BlockWorker> worker_;
-  std::vector<HeldBlock> held_;
-  std::vector<float> finest_posts_;
-  std::vector<std::int8_t> finest_rests_;
-  std::optional<TerrainKeeper> terrain_;
   std::vector<sim::TerrainEdit> edits_;
   std::vector<ridgeline::TerrainEdit> core_edits_;
   std::vector<PostGrid> edit_grids_;
+  Scene scene_;  ///< its worker reads the edits until the end
   std::size_t edits_applied_ = 0;
   bool settled_ = false;
-  bool polar_ = false;  ///< some tile lies where a polar chart is used
-  std::vector<PlaneRecord> planes_;
-  std::vector<float> slopes_;
-  std::vector<std::uint8_t> text_;
-  std::vector<RayTile> ray_tiles_;
-  std::vector<float> tile_steepness_;
-  std::vector<std::uint8_t> tile_shapes_;
-  std::vector<TileLook> tile_looks_;
-  std::unique_ptr<BlockBearing> block_bearing_;
-  std::vector<std::uint32_t> range_words_;
   std::vector<std::uint8_t> rgba_;
   std::vector<Kept> methods_;
   Method* method_ = nullptr;  ///< in use

@@ -26,29 +26,30 @@ double Session::build_ms() const {
 }
 
 Session::WindowState Session::window_state() const {
-  const TerrainView view = terrain_->view();
-  return {worker_->blocks_taken(), edits_applied_, view.lattice.chart, view.drawable};
+  const TerrainView view = scene_.terrain().view();
+  return {scene_.worker().blocks_taken(), edits_applied_, view.lattice.chart, view.drawable};
 }
 
 MethodTerrain Session::method_terrain() {
   const WindowState state = window_state();
   if (method_posts_of_ != state) {
     // From blocks of 64 x 64 posts, one after the other, to rows.
-    method_posts_.resize(finest_posts_.size());
-    const auto columns = static_cast<std::size_t>(window_.columns());
-    for (std::size_t b = 0; b < static_cast<std::size_t>(window_.blocks()); ++b) {
-      const std::size_t row = b / window_.column_blocks * block_posts;
-      const std::size_t column = b % window_.column_blocks * block_posts;
-      const float* from = finest_posts_.data() + b * block_posts * block_posts;
+    const std::span<const float> posts = scene_.finest_posts_m();
+    method_posts_.resize(posts.size());
+    const auto columns = static_cast<std::size_t>(scene_.window().columns());
+    for (std::size_t b = 0; b < static_cast<std::size_t>(scene_.window().blocks()); ++b) {
+      const std::size_t row = b / scene_.window().column_blocks * block_posts;
+      const std::size_t column = b % scene_.window().column_blocks * block_posts;
+      const float* from = posts.data() + b * block_posts * block_posts;
       for (std::size_t r = 0; r < block_posts; ++r, from += block_posts) {
         std::copy(from, from + block_posts, &method_posts_[(row + r) * columns + column]);
       }
     }
     method_posts_of_ = state;
   }
-  const WindowSummary summary = terrain_->summary();
-  return {terrain_->view(), method_posts_, summary.lowest_m, summary.highest_m,
-          options_.settings.range_m};
+  const WindowSummary summary = scene_.terrain().summary();
+  return {scene_.terrain().view(), method_posts_, summary.lowest_m, summary.highest_m,
+          scene_.settings().range_m};
 }
 
 Outcome Session::prepare(const FrameInput& input) {
@@ -56,16 +57,16 @@ Outcome Session::prepare(const FrameInput& input) {
   if (input.availability.mode == Mode::removed || !local_frame(input.eye).ok()) return {};
   context_->make_current();
   apply_edits(static_cast<double>(input.time_ns) * 1e-9);
-  terrain_->settle(input.eye, *renderer_);
+  scene_.settle(input.eye);
   settled_ = true;
   const WindowState state = window_state();
   const auto kept = std::find_if(methods_.begin(), methods_.end(),
                                  [&](const Kept& k) { return k.method.get() == method_; });
   RL_ASSERT(kept != methods_.end());
-  if (kept->built == state || terrain_->summary().known_posts == 0) return {};
+  if (kept->built == state || scene_.terrain().summary().known_posts == 0) return {};
   const MethodTerrain terrain = method_terrain();
   const double start_ms = now_ms();
-  Outcome built = method_->build(terrain, renderer_->sizes());
+  Outcome built = method_->build(terrain, scene_.renderer().sizes());
   kept->build_ms = now_ms() - start_ms;
   if (built.ok()) kept->built = state;
   return built;

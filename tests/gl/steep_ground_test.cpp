@@ -16,7 +16,7 @@
 
 #include "config/limits.hpp"
 #include "core/frame/ray_tiles.hpp"
-#include "platform/egl_surface.hpp"
+#include "platform/egl_context.hpp"
 #include "tests/unit/window/ground.hpp"
 
 namespace ridgeline::test {
@@ -61,7 +61,7 @@ class Window {
         posts_(std::size_t{36} * 64 * 64),
         rests_(posts_.size()),
         keeper(port_, ground.lattice(), sizes_, held_, {posts_, rests_}) {
-    auto surface = EglSurface::make();
+    auto surface = EglContext::make();
     EXPECT_TRUE(surface);
     surface_ = std::move(surface).value();
     auto made = Renderer::make({16, 16, sizes_, 64, 64}, surface_->timer_functions(),
@@ -77,7 +77,7 @@ class Window {
   std::vector<HeldBlock> held_;
   std::vector<float> posts_;
   std::vector<std::int8_t> rests_;
-  std::optional<EglSurface> surface_;
+  std::optional<EglContext> surface_;
   std::optional<Renderer> renderer_;
 
  public:

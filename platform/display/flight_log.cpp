@@ -1,0 +1,32 @@
+#include "platform/display/flight_log.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include "platform/can_batch.hpp"
+
+namespace ridgeline {
+
+void LogRing::tell(LogLevel level, const char* format, ...) {
+  LogRecord record;
+  record.time_ns = monotonic_now_ns();
+  record.level = level;
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(record.text.data(), record.text.size(), format, arguments);
+  va_end(arguments);
+  ring_.push(record);
+}
+
+int log_line(const LogRecord& record, bool for_journal, std::array<char, 256>& line) {
+  const auto seconds = static_cast<long long>(record.time_ns / 1'000'000'000);
+  const auto micros = static_cast<int>(record.time_ns % 1'000'000'000 / 1'000);
+  char level[8] = "";
+  if (for_journal) std::snprintf(level, sizeof level, "<%d>", static_cast<int>(record.level));
+  const int length = std::snprintf(line.data(), line.size(), "%s%lld.%06d s: %s", level, seconds,
+                                   micros, record.text.data());
+  return std::clamp(length, 0, static_cast<int>(line.size()) - 1);
+}
+
+}  // namespace ridgeline

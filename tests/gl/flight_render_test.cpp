@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "platform/display/frame_dump.hpp"
+#include "platform/display/render_thread.hpp"
+#include "platform/heap_counter.hpp"
+#include "sim/synthetic/tile_writer.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace ridgeline {
+namespace {
+
+double hills(double latitude_deg, double longitude_deg) {
+  return 800.0 + 300.0 * std::sin(latitude_deg * 400.0) * std::cos(longitude_deg * 300.0);
+}
+
+/// The flight program's drawing part with a state put in by hand, on this thread.
+class FlightRender : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_.file("tiles"));
+    constexpr int posts = 1201;  // 3"
+    ASSERT_TRUE(sim::write_tile_with(folder_.file("tiles"), 46, 8, posts, hills).ok());
+    config_.picture.width_px = 64;
+    config_.picture.height_px = 48;
+    config_.picture.rate_hz = 0.1;
+    config_.picture.range_km = 8;
+    config_.terrain.folder = folder_.file("tiles");
+    config_.terrain.home_latitude_deg = 46.5;
+    config_.terrain.home_longitude_deg = 8.5;
+    config_.report.last_frame_folder = folder_.file("last");
+  }
+  void boot() {
+    render_ = std::make_unique<RenderThread>(config_, *exchange_);
+    const std::string problem = render_->boot();
+    ASSERT_EQ(problem, "");
+  }
+  void receive(std::int64_t now_ns) {
+    const auto put = [&](BusParameter parameter, double value) {
+      Sample& sample = state_.samples[static_cast<std::size_t>(parameter)];
+      sample = {value, now_ns, Validity::valid, {}};
+    };
+    put(BusParameter::roll, 5.0);
+    put(BusParameter::pitch, 0.0);
+    put(BusParameter::true_heading, 30.0);
+    put(BusParameter::gps_latitude, 46.5);
+    put(BusParameter::gps_longitude, 8.5);
+    put(BusParameter::gps_height, 1500.0);
+    state_.now_ns = now_ns;
+    exchange_->ownship.write(state_);
+  }
+  /// A frame of a value just received.
+  void fly() {
+    receive(monotonic_now_ns());
+    render_->draw(monotonic_now_ns());
+  }
+  /// Frames until terrain is drawn and all of it has arrived.
+  void fly_until_drawn() {
+    for (int i = 0; i < 200; ++i) {
+      fly();
+      if (render_->fact().availability.mode == Mode::svs) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    FAIL() << "no terrain";
+  }
+
+  test::ScratchFolder folder_{"flight_render"};
+  DisplayConfig config_;
+  std::unique_ptr<Exchange> exchange_ = std::make_unique<Exchange>();
+  std::unique_ptr<RenderThread> render_;
+  OwnshipState state_;
+};
+
+TEST_F(FlightRender, a_frame_proves_itself_and_keeps_its_promise) {
+  boot();
+  render_->draw(monotonic_now_ns());
+  EXPECT_EQ(render_->fact().availability.mode, Mode::removed);
+  EXPECT_FALSE(render_->fact().proof.bound_computed);
+  fly_until_drawn();
+  const FrameProof& proof = render_->fact().proof;
+  EXPECT_TRUE(proof.bound_computed);
+  EXPECT_TRUE(proof.fence_signalled);
+  EXPECT_EQ(proof.newest_input_ns, state_.now_ns);
+  EXPECT_GT(proof.finished_ns, proof.newest_input_ns);
+  EXPECT_EQ(exchange_->latency.count(), render_->fact().proof.frame - 1);
+  EXPECT_GE(exchange_->latency.largest_ns(), exchange_->frame_time.quantile_ns(0.01) / 2);
+  render_->dump();
+  EXPECT_EQ(render_->dump_problem(), "");
+  const std::string verify = std::string(RIDGELINE_PROGRAM) + " verify " + folder_.file("last") +
+                             " --terrain " + folder_.file("tiles") + " --pixels all";
+  EXPECT_EQ(std::system(verify.c_str()), 0);
+}
+
+TEST_F(FlightRender, frames_allocate_nothing) {
+  boot();
+  fly_until_drawn();
+  const std::uint64_t before = heap_allocations_counted();
+  {
+    const HeapSection section;
+    for (int i = 0; i < 5; ++i) fly();
+  }
+  EXPECT_EQ(heap_allocations_counted(), before);
+}
+
+TEST_F(FlightRender, a_lost_context_ends_the_program_and_shows_the_failure_picture) {
+  boot();
+  fly();
+  EXPECT_FALSE(exchange_->stop);
+  render_->screen().ask_reset_status([]() -> GLenum { return 0x8254; });  // GL_INNOCENT_...RESET
+  fly();
+  EXPECT_TRUE(exchange_->stop);
+  EXPECT_EQ(static_cast<Fault>(exchange_->fatal.load()), Fault::gl_context_lost);
+  EXPECT_TRUE(render_->screen().health().failed_shown);
+  EXPECT_FALSE(render_->fact().proof.fence_signalled);
+  EXPECT_EQ(render_->fact().present_faults, 1u);
+}
+
+TEST_F(FlightRender, old_values_remove_the_terrain_and_prove_nothing) {
+  boot();
+  fly_until_drawn();
+  receive(monotonic_now_ns() - 3 * limits::second_ns);
+  render_->draw(monotonic_now_ns());
+  EXPECT_EQ(render_->fact().availability.mode, Mode::removed);
+  EXPECT_FALSE(render_->fact().proof.bound_computed);
+}
+
+TEST_F(FlightRender, what_boot_needs_and_does_not_find_is_named) {
+  config_.terrain.folder = folder_.file("nowhere");
+  RenderThread no_terrain(config_, *exchange_);
+  const std::string unreadable(fault_text(Fault::folder_unreadable));
+  EXPECT_EQ(no_terrain.boot().rfind(config_.terrain.folder + ": " + unreadable, 0), 0u);
+  config_.terrain.folder = folder_.file("tiles");
+  config_.terrain.geoid = folder_.file("none.pgm");
+  RenderThread no_geoid(config_, *exchange_);
+  EXPECT_EQ(no_geoid.boot().rfind(config_.terrain.geoid, 0), 0u);
+  config_.terrain.geoid = "none";
+  config_.screen.kind = ScreenKind::kms;
+  config_.screen.card = folder_.file("no-card");
+  RenderThread no_screen(config_, *exchange_);
+  EXPECT_EQ(no_screen.boot().rfind("screen: no screen: the card", 0), 0u);
+}
+
+}  // namespace
+}  // namespace ridgeline
