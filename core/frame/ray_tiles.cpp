@@ -80,8 +80,8 @@ double TilePlan::allowed(std::size_t shape, std::size_t other, int bin) {
   float& kept = bearing.steepest[(shape * block_shapes + other) * way_bins + wrapped];
   if (kept >= 0) return static_cast<double>(kept);
   const BlockShape& block = shapes[shape];
-  const bool one_lattice =
-      shape == other && ray_tile_px % block.width == 0 && ray_tile_px % block.height == 0;
+  const bool square = block.width == block.height;  // turned by a right angle the same
+  const bool one_lattice = shape == other && square && ray_tile_px % block.width == 0;
   double steepest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < angles_in_bin; ++k) {
     const double angle = way_bin_rad * (static_cast<double>(wrapped) + (k + 0.5) / angles_in_bin);

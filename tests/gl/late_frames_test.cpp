@@ -2,6 +2,7 @@
 // such picture is sound and complete for that bound.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -124,20 +125,26 @@ TEST(LateFrames, are_sound_beside_voids) {
   expect_sound_when_late(land, {FrameStage::cast, 1, 1.0}, 3);
 }
 
-/// What is left at the bottom has no room for a border: it is finished as planned, and is late.
+/// After the last band nothing is left that could be coarser: the frame is finished as planned, and
+/// is late.
 TEST(LateFrames, keep_their_bound_where_too_little_is_left) {
   const Land land(hills_m);
   land.add_tile(46, 8);
   StallingClock clock;
-  clock.reading = 4;
-  clock.stall_ns = 2 * limits::default_deadline_ns;
-  FramePace pace({limits::default_deadline_ns, 1.0, limits::budget_most_px}, clock);
+  const BudgetSettings settings{limits::default_deadline_ns, 1.0, limits::budget_most_px};
+  FramePace in_time(settings, clock), late(settings, clock);
   Scene scene(land, options_of(1.0), place);
-  scene.settings().pace = &pace;
+  scene.settings().pace = &in_time;
+  scene.draw(poses.front());
+  clock.reading = static_cast<int>(
+      std::ranges::count(in_time.record().readings.view(), FrameStage::cast, &PaceReading::stage));
+  EXPECT_GT(clock.reading, 1);
+  clock.stall_ns = 2 * limits::default_deadline_ns;
+  scene.settings().pace = &late;
   const sim::Picture picture = scene.draw(poses.front());
   EXPECT_FALSE(picture.report.finished_coarser);
   EXPECT_EQ(picture.report.bound_px, 1.0);
-  EXPECT_EQ(pace.budget().counters.overruns[static_cast<std::size_t>(OverrunCause::cast)], 1U);
+  EXPECT_EQ(late.budget().counters.overruns[static_cast<std::size_t>(OverrunCause::cast)], 1U);
 }
 
 /// On trial, after frames without terrain, a frame that is late goes without it as well.

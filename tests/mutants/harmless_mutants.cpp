@@ -54,8 +54,7 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "c), within geometry_px of p. The lemma of docs/error_bound.md, section 8, holds between p' "
        "and c', which lie as p and c do, without any loss: z(c) = Z(c') <= Z(p') or >= Z(p'). That "
        "is completeness as docs/adr/0014 promises it."},
-      {{"ring_of_one_pixel", "core/frame/ray_tiles.cpp",
-        "static_cast<int>(sharing.bound_px + neighbour_px) + 1", "1",
+      {{"ring_of_one_pixel", "core/frame/ray_tiles.cpp", "static_cast<int>(reach_px) + 1", "1",
         "pixels near the edge of the picture share rays as any others", "shared_combs_rolled"},
        "Pixels beyond the edge count as drawn exactly (docs/adr/0014), so to a tile at the edge "
        "the "

@@ -179,7 +179,7 @@ TEST(HarmlessReasons, a_block_turned_by_a_right_angle_bears_no_more) {
       for (int k = -45; k <= 45; ++k) {
         const double angle = k * std::numbers::pi / 180;
         const glm::dvec2 way(std::sin(angle), std::cos(angle)), across(way.y, -way.x);
-        const BlockPair pair{shape, shape, 32 % shape.width == 0 && 32 % shape.height == 0};
+        const BlockPair pair{shape, shape, shape.width == shape.height && 32 % shape.width == 0};
         const double upright = steepest_for_block(pair, way, {reach_px});
         const double turned = steepest_for_block(pair, across, {reach_px});
         if (turned > 0) most = std::max(most, turned / std::max(upright, 1e-9));
