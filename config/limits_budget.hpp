@@ -6,7 +6,7 @@ namespace ridgeline::limits {
 
 inline constexpr std::int64_t default_deadline_ns = 33'333'333;  ///< 30 frames a second
 inline constexpr std::int64_t min_deadline_ns = 1'000'000;
-inline constexpr std::int64_t max_deadline_ns = 1'000'000'000;
+inline constexpr std::int64_t max_deadline_ns = 10'000'000'000;
 
 // --- the ladder ---
 inline constexpr double budget_most_px = 8.0;          ///< largest bound taken for the sake of time

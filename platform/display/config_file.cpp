@@ -200,6 +200,10 @@ void check_together(const toml::table& root, const DisplayConfig& config, Proble
          "rounding alone costs " + number_text(std::ceil(least_px * 1e4) * 1e-4) +
              " px in this picture");
   }
+  const double deadline_ms = config.monitor.deadline_ms;
+  if (deadline_ms > 0 && deadline_ms < 1e-6 * limits::min_deadline_ns) {
+    tell("monitor", "deadline_ms", "is neither 0 (the period) nor at least 1");
+  }
   if (config.terrain.folder.empty()) tell("terrain", "folder", "is empty");
   if (config.terrain.geoid.empty()) tell("terrain", "geoid", "is neither a file nor \"none\"");
   const bool is_arinc429 = config.bus.protocol == BusProtocol::arinc429;

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "config/limits.hpp"
+#include "config/limits_budget.hpp"
 
 namespace ridgeline {
 namespace {
@@ -53,6 +54,7 @@ BooleanKey line_low() {
 }
 
 using Picture = C::Picture;
+using Monitor = C::Monitor;
 using Screen = C::Screen;
 using Terrain = C::Terrain;
 using Bus = C::Bus;
@@ -80,6 +82,12 @@ const ConfigKey keys[] = {
     {"picture", "range_km", false,
      NumberKey{limits::min_range_m * km, limits::max_range_m* km,
                at<&C::picture, &Picture::range_km>}},
+
+    {"monitor", "on", false, BooleanKey{at<&C::monitor, &Monitor::on>}},
+    {"monitor", "deadline_ms", false,
+     NumberKey{0.0, 1e-6 * limits::max_deadline_ns, at<&C::monitor, &Monitor::deadline_ms>}},
+    {"monitor", "most_px", false,
+     NumberKey{0.0, limits::max_error_px, at<&C::monitor, &Monitor::most_px>}},
 
     {"screen", "kind", true,
      ChoiceKey{screen_words,

@@ -1,5 +1,7 @@
 #include "platform/display/display_config.hpp"
 
+#include <cmath>
+
 #include "platform/display/config_keys.hpp"
 
 namespace ridgeline {
@@ -11,6 +13,12 @@ FrameSettings frame_settings(const DisplayConfig& config) {
   settings.error_px = picture.error_px;
   settings.range_m = picture.range_km * 1e3;
   return settings;
+}
+
+BudgetSettings budget_settings(const DisplayConfig& config) {
+  const double wanted_ms = config.monitor.deadline_ms;
+  const double deadline_ns = wanted_ms > 0 ? wanted_ms * 1e6 : 1e9 / config.picture.rate_hz;
+  return {std::llround(deadline_ns), config.picture.error_px, config.monitor.most_px};
 }
 
 ScreenSettings screen_settings(const DisplayConfig& config) {

@@ -28,6 +28,12 @@ struct DisplayConfig {
     double range_km = limits::default_range_m * 1e-3;
   } picture;
 
+  struct Monitor {
+    bool on = true;
+    double deadline_ms = 0;  ///< 0: the period
+    double most_px = limits::budget_most_px;
+  } monitor;
+
   struct Screen {
     ScreenKind kind = ScreenKind::surfaceless;
     std::string card = "/dev/dri/card0";
@@ -101,6 +107,8 @@ struct DisplayConfig {
 
 /// What the parts are told. Owner: texts view `config`.
 [[nodiscard]] FrameSettings frame_settings(const DisplayConfig& config);
+/// Domain: `deadline_ms` was checked by load_config().
+[[nodiscard]] BudgetSettings budget_settings(const DisplayConfig& config);
 [[nodiscard]] ScreenSettings screen_settings(const DisplayConfig& config);
 [[nodiscard]] GpioSettings gpio_settings(const DisplayConfig& config);
 [[nodiscard]] StateLimits pose_limits(const DisplayConfig& config);

@@ -5,6 +5,7 @@
 
 #include "core/monitor/availability.hpp"
 #include "core/monitor/discretes.hpp"
+#include "core/monitor/frame_budget.hpp"
 #include "core/monitor/heartbeat.hpp"
 #include "core/state/ownship_state.hpp"
 #include "platform/can_buses.hpp"
@@ -41,8 +42,11 @@ struct FrameFact {
   std::uint64_t present_faults = 0;  ///< pictures that the screen did not take
   std::uint64_t removed = 0;
   std::uint64_t degraded = 0;
-  std::int64_t first_frame_ns = 0;    ///< when it was finished; 0: none yet
-  std::int64_t first_terrain_ns = 0;  ///< the first one with terrain
+  std::uint64_t ground_disagreements = 0;  ///< times the radio height began to contradict
+  BudgetCounters budget;                   ///< of the frame-budget monitor; none without one
+  int budget_step = 0;                     ///< that the next frame is drawn at
+  std::int64_t first_frame_ns = 0;         ///< when it was finished; 0: none yet
+  std::int64_t first_terrain_ns = 0;       ///< the first one with terrain
 };
 
 /// What the supervisor says about the lines.

@@ -59,6 +59,8 @@ std::string RenderThread::boot() {
   settings.terrain_folder = config_.terrain.folder;
   settings.geoid = config_.terrain.geoid;
   settings.frame = frame_settings(config_);
+  if (config_.monitor.on) pace_.emplace(budget_settings(config_), clock_);
+  settings.frame.pace = pace_ ? &*pace_ : nullptr;
   settings.terrain_gpu_bytes = config_.terrain.gpu_budget_mib * 1024.0 * 1024.0;
   const GeodeticPosition home{config_.terrain.home_latitude_deg, config_.terrain.home_longitude_deg,
                               0.0};
@@ -138,17 +140,32 @@ FrameInput RenderThread::frame_input_now(std::int64_t now_ns) {
   newest_input_ns_ = newest_ns(
       {pose.latitude_deg, pose.height_m, pose.roll_deg, pose.pitch_deg, pose.heading_deg}, now_ns);
   radio_height_m_ = pose.radio_height_m;
-  return frame_input(pose, ground_, now_ns);
+  FrameInput input = frame_input(pose, ground_, now_ns);
+  input.bus_frames = newly_decoded();
+  return input;
+}
+
+/// Bus frames that became values since the last frame of the display. They are the bus thread's
+/// work, but that thread goes first wherever both want one core.
+int RenderThread::newly_decoded() {
+  const std::uint32_t decoded = state_.counters.decoded;
+  const std::uint32_t since = decoded - decoded_told_;  // modulo the counter's range, as it counts
+  decoded_told_ = decoded;
+  constexpr std::uint32_t most = 1'000'000;  // after a reset of the counters: not a count
+  return since <= most ? static_cast<int>(since) : 0;
 }
 
 void RenderThread::draw(std::int64_t due_ns) {
+  clock_.start_frame();
   const std::int64_t started_ns = monotonic_now_ns();
   const FrameInput input = frame_input_now(started_ns);
-  // What the next frame may cost is chosen here: the configured bound, always.
   const FrameSettings& settings = scene_->settings();
   const Availability before = fact_.availability;
   report_ = scene_->draw(settings, input);
   static_cast<void>(scene_->finish(report_));
+  // Before the screen takes it: to wait for a vertical blank is not work, and no coarser picture
+  // would shorten it.
+  end_pace(settings, report_);
   // What this frame shows is judged by the next one: the ground below is known once it is drawn.
   ground_ = ground_check(ground_, radio_height_m_, report_.over_ground_m, started_ns);
   fact_.availability = report_.availability;
@@ -195,6 +212,11 @@ void RenderThread::judge(std::int64_t started_ns, std::int64_t finished_ns, Faul
   fact_.started_ns = started_ns;
   fact_.bound_px = report_.bound_px;
   fact_.range_km = report_.range_m * 1e-3;
+  fact_.ground_disagreements = ground_.disagreements;
+  if (pace_) {
+    fact_.budget = pace_->budget().counters;
+    fact_.budget_step = pace_->budget().step;
+  }
   if (finished_ns > proof.deadline_ns) ++fact_.late;
   if (presented != Fault::none) ++fact_.present_faults;
   if (mode == Mode::removed) ++fact_.removed;

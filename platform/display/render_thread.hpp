@@ -9,6 +9,7 @@
 #include "core/frame/frame_input.hpp"
 #include "platform/display/display_config.hpp"
 #include "platform/display/exchange.hpp"
+#include "platform/gpu_clock.hpp"
 #include "platform/scene.hpp"
 #include "platform/screen.hpp"
 
@@ -57,6 +58,7 @@ class RenderThread {
   void prepare_real_time();
   [[nodiscard]] FrameInput frame_input_now(std::int64_t now_ns);
   Fault present();
+  [[nodiscard]] int newly_decoded();
   void judge(std::int64_t started_ns, std::int64_t finished_ns, Fault presented);
   void note_latency();
   void tell_change(const Availability& before);
@@ -66,7 +68,10 @@ class RenderThread {
   Exchange& exchange_;
   StateLimits limits_;
   std::int64_t period_ns_;
+  GpuClock clock_;
+  std::optional<FramePace> pace_;  ///< keeps frames in time; none where that is switched off
   OwnshipState state_;
+  std::uint32_t decoded_told_ = 0;  ///< frames of the bus that earlier frames were drawn from
   std::optional<Screen> screen_;
   std::optional<Scene> scene_;
   Texture blank_;

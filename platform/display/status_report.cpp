@@ -68,6 +68,75 @@ void add_frames(JsonText& json, const Exchange& exchange, const FrameFact& frame
   since_start("boot_to_first_terrain_ms", frame.first_terrain_ns);
 }
 
+/// A counter by its name in the report.
+struct Counted {
+  const char* name;
+  std::uint32_t UpdateCounters::*member;
+};
+
+void add_monitor(JsonText& json, const DisplayConfig& config, const FrameFact& frame) {
+  const BudgetCounters& counters = frame.budget;
+  json.open_object("monitor");
+  json.add("on", config.monitor.on);
+  json.add("deadline_ms", ms(budget_settings(config).deadline_ns));
+  json.add("frames", counters.frames);
+  json.add("step", std::int64_t{frame.budget_step});
+  json.open_object("overruns");
+  for (std::size_t k = 1; k < overrun_cause_count; ++k) {
+    json.add(cause_word(static_cast<OverrunCause>(k)), counters.overruns[k]);
+  }
+  json.close_object();
+  json.add("sheds", counters.sheds);
+  json.add("restores", counters.restores);
+  json.add("late_finishes", counters.late_finishes);
+  json.add("given_up", counters.given_up);
+  json.add("without_terrain", counters.frames_without_terrain);
+  json.add("worst_ms", ms(counters.worst_ns));
+  json.add("worst_cause", cause_word(counters.worst_cause));
+  json.open_object("worst_stage_ms");
+  for (std::size_t k = 0; k < frame_stage_count; ++k) {
+    json.add(stage_word(static_cast<FrameStage>(k)), ms(counters.worst_stage_ns[k]));
+  }
+  json.close_object();
+  json.add("worst_px", counters.worst_px);
+  json.close_object();
+}
+
+/// What was refused, doubted or taken over; each counts up from 0.
+void add_integrity(JsonText& json, const UpdateCounters& counters, const FrameFact& frame) {
+  using U = UpdateCounters;
+  constexpr Counted counted[] = {
+      {"not_data", &U::not_data},
+      {"other_channel", &U::other_channel},
+      {"other_source", &U::other_source},
+      {"type_mismatch", &U::type_mismatch},
+      {"not_finite", &U::not_finite},
+      {"bad_parity", &U::bad_parity},
+      {"no_computed_data", &U::no_computed_data},
+      {"functional_test", &U::functional_test},
+      {"failure_warning", &U::failure_warning},
+      {"suspect", &U::suspect},
+      {"unpaired_words", &U::unpaired_words},
+      {"unpaired_halves", &U::unpaired_halves},
+      {"unpaired_fixes", &U::unpaired_fixes},
+      {"duplicated", &U::duplicated},
+      {"replayed", &U::replayed},
+      {"replay_bursts", &U::replay_bursts},
+      {"lost_in_sequence", &U::lost_in_sequence},
+      {"jumps_believed", &U::jumps_believed},
+      {"source_changes", &U::source_changes},
+      {"disagreements", &U::disagreements},
+      {"freezes", &U::freezes},
+      {"outvoted", &U::outvoted},
+      {"clock_resets", &U::clock_resets},
+      {"clock_steps", &U::clock_steps},
+  };
+  json.open_object("integrity");
+  for (const Counted& one : counted) json.add(one.name, std::uint64_t{counters.*one.member});
+  json.add("ground_disagreements", frame.ground_disagreements);
+  json.close_object();
+}
+
 const char* link_word(CanLink link) {
   return link == CanLink::up ? "up" : link == CanLink::down ? "down" : "absent";
 }
@@ -183,7 +252,9 @@ void write_status(JsonText& json, const DisplayConfig& config, const Exchange& e
   add_frames(json, exchange, sources.frame);
   add_durations(json, "latency_ms", exchange.latency);
   add_durations(json, "frame_ms", exchange.frame_time);
+  add_monitor(json, config, sources.frame);
   add_bus(json, config, sources.bus, now_ns);
+  add_integrity(json, sources.bus.updates, sources.frame);
   add_lines(json, sources.lines);
   add_real_time(json, config, exchange);
   json.open_object("log");

@@ -1,14 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <thread>
 
 #include "platform/display/frame_dump.hpp"
 #include "platform/display/render_thread.hpp"
+#include "platform/display/status_report.hpp"
 #include "platform/heap_counter.hpp"
 #include "sim/synthetic/tile_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -70,6 +74,15 @@ class FlightRender : public testing::Test {
     FAIL() << "no terrain";
   }
 
+  nlohmann::json status_now() {
+    StatusSources sources;
+    read_sources(*exchange_, sources);
+    const auto json = std::make_unique<JsonText>();
+    write_status(*json, config_, *exchange_, sources, monotonic_now_ns(), "running");
+    EXPECT_TRUE(json->complete());
+    return nlohmann::json::parse(json->text(), nullptr, false);
+  }
+
   test::ScratchFolder folder_{"flight_render"};
   DisplayConfig config_;
   std::unique_ptr<Exchange> exchange_ = std::make_unique<Exchange>();
@@ -106,6 +119,65 @@ TEST_F(FlightRender, frames_allocate_nothing) {
     for (int i = 0; i < 5; ++i) fly();
   }
   EXPECT_EQ(heap_allocations_counted(), before);
+}
+
+/// A deadline of 1 ms is shed for from the first frames on, down to no terrain or the largest
+/// bound.
+TEST_F(FlightRender, what_cannot_be_in_time_is_shed_said_and_counted_without_the_heap) {
+  config_.monitor.deadline_ms = 1.0;
+  boot();
+  for (int i = 0; i < 200 && render_->fact().budget.sheds == 0; ++i) {
+    fly();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  const std::uint64_t before = heap_allocations_counted();
+  {
+    const HeapSection section;
+    for (int i = 0; i < 10; ++i) fly();
+  }
+  EXPECT_EQ(heap_allocations_counted(), before);
+  const FrameFact& fact = render_->fact();
+  EXPECT_GT(fact.budget.sheds, 0u);
+  EXPECT_GT(fact.budget_step, 0);
+  EXPECT_EQ(fact.budget.frames, fact.proof.frame);
+  EXPECT_EQ(std::accumulate(fact.budget.overruns.begin(), fact.budget.overruns.end(), 0ull),
+            fact.proof.frame);
+  EXPECT_LT(fact.budget.overruns[0], fact.proof.frame) << "some frame took longer than 1 ms";
+  EXPECT_NE(fact.availability.mode, Mode::svs);
+  const auto reasons = fact.availability.reasons.view();
+  EXPECT_TRUE(std::any_of(reasons.begin(), reasons.end(), [](Reason reason) {
+    return reason == Reason::overload || reason == Reason::bound_for_time ||
+           reason == Reason::detail_shed;
+  })) << "the picture says what was left out";
+  const nlohmann::json status = status_now();
+  EXPECT_EQ(status["monitor"]["frames"], fact.budget.frames);
+  EXPECT_EQ(status["monitor"]["sheds"], fact.budget.sheds);
+  EXPECT_EQ(status["monitor"]["deadline_ms"], 1.0);
+  EXPECT_GT(status["monitor"]["worst_ms"], 1.0);
+}
+
+TEST_F(FlightRender, a_monitor_that_is_switched_off_sheds_and_counts_nothing) {
+  config_.monitor.deadline_ms = 1.0;
+  config_.monitor.on = false;
+  boot();
+  fly_until_drawn();
+  for (int i = 0; i < 10; ++i) fly();
+  EXPECT_EQ(render_->fact().availability.mode, Mode::svs);
+  EXPECT_LE(render_->fact().bound_px, config_.picture.error_px);
+  EXPECT_EQ(render_->fact().budget.frames, 0u);
+  EXPECT_EQ(status_now()["monitor"]["on"], false);
+}
+
+TEST_F(FlightRender, the_status_report_counts_what_integrity_found) {
+  state_.counters.freezes = 3;
+  state_.counters.disagreements = 7;
+  BusStatus bus;
+  bus.updates = state_.counters;
+  exchange_->bus_report.write(bus);
+  const nlohmann::json status = status_now();
+  EXPECT_EQ(status["integrity"]["freezes"], 3);
+  EXPECT_EQ(status["integrity"]["disagreements"], 7);
+  EXPECT_EQ(status["integrity"]["outvoted"], 0);
 }
 
 TEST_F(FlightRender, a_lost_context_ends_the_program_and_shows_the_failure_picture) {

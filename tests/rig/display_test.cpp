@@ -43,7 +43,8 @@ class Installation {
         "[picture]\nwidth_px = 64\nheight_px = 48\nhorizontal_field_of_view_deg = 60\n"
         "rate_hz = 1\nrange_km = 8\n[screen]\nkind = \"surfaceless\"\n"
         "[timeouts]\nattitude_ms = 3000\nheading_ms = 3000\nposition_ms = 6000\n"
-        "height_ms = 6000\npicture_ms = 9000\nheartbeat_input_ms = 3000\n",
+        "height_ms = 6000\npicture_ms = 9000\nheartbeat_input_ms = 3000\n"
+        "[monitor]\ndeadline_ms = 10000\n",
         terrain, bus, beat);
   }
   /// The smallest mode of the simulated card, as slow as it has to be in emulation.
@@ -52,7 +53,8 @@ class Installation {
         "[picture]\nwidth_px = 640\nheight_px = 480\nhorizontal_field_of_view_deg = 60\n"
         "rate_hz = 0.1\nrange_km = 4\n[screen]\nkind = \"kms\"\ncard = \"/dev/dri/card0\"\n"
         "[timeouts]\nattitude_ms = 10000\nheading_ms = 10000\nposition_ms = 10000\n"
-        "height_ms = 10000\npicture_ms = 10000\nheartbeat_input_ms = 10000\n",
+        "height_ms = 10000\npicture_ms = 10000\nheartbeat_input_ms = 10000\n"
+        "[monitor]\non = false\n",
         "tiles", "rig0", "rig-beat");
   }
 

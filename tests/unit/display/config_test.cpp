@@ -86,6 +86,38 @@ TEST_F(ConfigFile, what_is_required_is_enough_and_the_rest_has_defaults) {
   EXPECT_EQ(gpio_settings(config).hold_ns, limits::discrete_hold_ns);
 }
 
+TEST_F(ConfigFile, the_monitor_keeps_the_period_unless_told_otherwise) {
+  Values values = required();
+  values["picture"]["rate_hz"] = "20";
+  values["picture"]["error_px"] = "0.5";
+  write(values);
+  EXPECT_TRUE(loaded().monitor.on);
+  EXPECT_EQ(budget_settings(loaded()).deadline_ns, 50 * limits::ms_ns);
+  EXPECT_EQ(budget_settings(loaded()).wanted_px, 0.5);
+  EXPECT_EQ(budget_settings(loaded()).most_px, limits::budget_most_px);
+  values["monitor"] = {{"on", "false"}, {"deadline_ms", "12.5"}, {"most_px", "4"}};
+  write(values);
+  EXPECT_FALSE(loaded().monitor.on);
+  EXPECT_EQ(budget_settings(loaded()).deadline_ns, 12'500'000);
+  EXPECT_EQ(budget_settings(loaded()).most_px, 4.0);
+}
+
+/// No configuration that is accepted meets a limit of the monitor in flight.
+TEST_F(ConfigFile, every_rate_gives_a_deadline_that_the_monitor_takes) {
+  for (const char* rate_hz : {"0.1", "120"}) {
+    Values values = required();
+    values["picture"]["rate_hz"] = rate_hz;
+    write(values);
+    const BudgetSettings settings = budget_settings(loaded());
+    EXPECT_GE(settings.deadline_ns, limits::min_deadline_ns) << rate_hz;
+    EXPECT_LE(settings.deadline_ns, limits::max_deadline_ns) << rate_hz;
+  }
+  Values values = required();
+  values["monitor"]["deadline_ms"] = "0.5";
+  write(values);
+  expect_refused("monitor.deadline_ms", "is neither 0 (the period) nor at least 1");
+}
+
 TEST_F(ConfigFile, every_required_key_is_missed_by_name) {
   for (const ConfigKey& key : config_keys()) {
     if (!key.required) continue;
