@@ -18,11 +18,7 @@ std::span<const RayTile> tiles_of(const FrameTables& tables, int first, int coun
 
 std::int64_t rays_of(std::span<const RayTile> tiles) {
   std::int64_t rays = 0;
-  for (const RayTile& tile : tiles) {
-    const BlockShape shape = tile.shape();
-    rays += static_cast<std::int64_t>((tile.width() + shape.width - 1) / shape.width) *
-            ((tile.height() + shape.height - 1) / shape.height);
-  }
+  for (const RayTile& tile : tiles) rays += tile.ray_count();
   return rays;
 }
 
@@ -130,7 +126,7 @@ int PacedCast::band_tiles() const {
   int end = cast_;
   for (; end < ground_; ++end) {
     if (rays >= band_rays_ && tile(end).y() != tile(end - 1).y()) return end - cast_;
-    rays += rays_of(tiles_of(scene_.tables, end, 1));
+    rays += tile(end).ray_count();
   }
   return tiles_ - cast_;
 }

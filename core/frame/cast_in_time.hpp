@@ -17,9 +17,9 @@ struct CastScene {
 
 /// Plans the ray tiles and casts their rays, in bands where a pace is to be kept. Where it says
 /// that the frame is late, what is not cast yet is planned again with the largest bound of the
-/// pace, and that is the frame's from then on. Result: rays, shared_px, work and, where that
-/// happened, bound and reason in `report`; false where
-///         the pace gives the frame up.
+/// pace, and that is the frame's from then on.
+/// Result: rays, shared_px, work and, where that happened, bound and reason in `report`; false
+///         where the pace gives the frame up.
 /// Source: docs/error_bound.md, section 8b.
 bool cast_in_time(const CastScene& scene, FrameReport& report);
 

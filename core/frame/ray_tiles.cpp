@@ -205,11 +205,7 @@ RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local
     if (shared) TilePlan(camera, sharing, tables, across, down).choose_shapes();
     result.ground_tiles = part_sky(tiles, tables.steepness);
   }
-  for (const RayTile& tile : tiles) {
-    const BlockShape shape = tile.shape();
-    result.rays += ((tile.width() + shape.width - 1) / shape.width) *
-                   ((tile.height() + shape.height - 1) / shape.height);
-  }
+  for (const RayTile& tile : tiles) result.rays += tile.ray_count();
   for (const RayTile& tile : tiles.first(static_cast<std::size_t>(result.ground_tiles))) {
     result.shared_px = std::max(result.shared_px, tile.shape().radius_px());
   }

@@ -59,8 +59,9 @@ inline constexpr int cut_ring_px = 15;
 /// for: near enough to every one of them for the promise, and so that nothing that a pixel truly
 /// sees is left out of the pixels round it.
 /// Ground that is drawn with a residual, or beside unknown ground, has a ray for every pixel; a
-/// tile where no ground can show has one ray, as all of it is sky. Result: tables.tiles is filled;
-/// with a cut, with the tiles below it, which have a border along it.
+/// tile where no ground can show has one ray, as all of it is sky.
+/// Result: tables.tiles is filled; with a cut, with the tiles below it, which have a border along
+///         it.
 /// Cost:   O(blocks of the window + tiles); no allocation.
 /// Source: docs/error_bound.md, section 8.
 RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local,
