@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr std::int64_t look_ns = 2'000'000;
-constexpr std::int64_t late_ns = 1'000'000;    // below this a timer is as good as it gets
+constexpr std::int64_t late_ns = 5'000'000;    // below this a timer is as good as it gets
 constexpr std::int64_t stall_ns = 20'000'000;  // two rounds of the supervisor
 constexpr int before_all_others = 90;
 

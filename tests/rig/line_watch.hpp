@@ -18,7 +18,7 @@ struct Stretch {
 struct WatchFacts {
   std::uint64_t edges = 0;
   std::int64_t longest_gap_ns = 0;  ///< between two edges next to each other
-  std::int64_t away_ns = 0;         ///< together: looks that came late because nothing ran at all
+  std::int64_t away_ns = 0;         ///< together: looks 5 ms late or more: nothing ran at all
   std::vector<Stretch> gaps;        ///< those longer than asked for
   std::vector<Stretch> stalls;      ///< of the machine: 20 ms or longer without a look
 };

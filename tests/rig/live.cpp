@@ -19,15 +19,15 @@ namespace ridgeline::rig {
 namespace {
 
 constexpr int done = 0, check_failed = 1, bad_input = 3;
-constexpr int boot_limit_s = 600, terrain_limit_s = 120, end_limit_s = 60;
+constexpr int boot_limit_s = 600, terrain_limit_s = 300, end_limit_s = 60;
 constexpr const char* player_name = "canplayer";
 
 struct Arguments {
   double minutes = 1;
   std::string terrain, log, geoid = "none", screen = "surfaceless", reference = "unknown";
   std::string home = "-48.4,-123.7";
-  int width_px = 640, height_px = 480;
-  double rate_hz = 10, range_km = 60, error_px = 1;
+  int width_px = 320, height_px = 240;
+  double rate_hz = 10, range_km = 60, error_px = 1, deadline_ms = 75;
 };
 
 /// The configuration of the run; false where `home` is no place.
@@ -46,6 +46,7 @@ bool configure(const Arguments& arguments, const std::string& file) {
                       << "\"\ngeoid = \"" << arguments.geoid
                       << "\"\nhome_latitude_deg = " << latitude_deg
                       << "\nhome_longitude_deg = " << longitude_deg
+                      << "\n[monitor]\ndeadline_ms = " << arguments.deadline_ms
                       << "\n[bus]\ninterfaces = [\"rig0\"]\nprotocol = \"canaerospace\"\n"
                       << "heading_reference = \"" << arguments.reference << "\"\n"
                       << "[lines]\nheartbeat = \"rig-beat\"\nsvs_valid = \"rig-valid\"\n"
@@ -158,16 +159,17 @@ class LiveRun {
 };
 
 void print_line(const LiveSample& s, double at_s) {
+  const auto wide = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   std::printf(
-      "%6.0f s  %s  frames %llu, late %llu, degraded %llu; edges %llu (%llu seen); received %llu, "
-      "dropped %llu; anonymous %.0f KiB; latency p50 %.2f p99 %.2f max %.1f ms; frame p50 %.2f "
-      "p99 %.2f ms; away %.0f ms\n",
-      at_s, s.mode.c_str(), static_cast<unsigned long long>(s.drawn),
-      static_cast<unsigned long long>(s.late), static_cast<unsigned long long>(s.degraded),
-      static_cast<unsigned long long>(s.edges), static_cast<unsigned long long>(s.edges_seen),
-      static_cast<unsigned long long>(s.received), static_cast<unsigned long long>(s.dropped),
-      s.anonymous_kib, s.latency_p50_ms, s.latency_p99_ms, s.latency_max_ms, s.frame_p50_ms,
-      s.frame_p99_ms, s.away_ms);
+      "%6.0f s  %s  frames %llu: %llu late, %llu degraded, %llu removed; edges %llu, %llu seen; ",
+      at_s, s.mode.c_str(), wide(s.drawn), wide(s.late), wide(s.degraded), wide(s.removed),
+      wide(s.edges), wide(s.edges_seen));
+  std::printf(
+      "received %llu, dropped %llu; anonymous %.0f KiB; latency p50 %.2f p99 %.2f max %.1f ms; ",
+      wide(s.received), wide(s.dropped), s.anonymous_kib, s.latency_p50_ms, s.latency_p99_ms,
+      s.latency_max_ms);
+  std::printf("frame p50 %.2f p99 %.2f ms; away %.0f ms\n", s.frame_p50_ms, s.frame_p99_ms,
+              s.away_ms);
   std::fflush(stdout);
 }
 
@@ -197,9 +199,16 @@ int fly(const Arguments& arguments) {
   LiveSample sample;
   bool good = true;
   double told_s = 0;
-  while (good && (samples.empty() || sample.up_s - samples.front().up_s < 60 * arguments.minutes)) {
+  const auto goes_on = [&] {
+    if (samples.empty()) return true;
+    const double over_s = sample.up_s - samples.front().up_s - 60 * arguments.minutes;
+    // The last frame is for the oracle, so it is one with terrain.
+    return over_s < 0 || (sample.mode == "removed" && over_s < end_limit_s);
+  };
+  while (good && goes_on()) {
     good = run.next(sample) && run.player_runs();
-    if (good && samples.empty() && sample.mode == "removed") continue;
+    // A report from before the first heartbeat is no beginning of a flight.
+    if (good && samples.empty() && (sample.edges == 0 || sample.mode == "removed")) continue;
     samples.push_back(sample);
     if (const double at_s = sample.up_s - samples.front().up_s; at_s >= told_s) {
       print_line(sample, at_s);
@@ -246,6 +255,7 @@ int run(int argc, char** argv) {
   program.add_option("--rate", arguments.rate_hz);
   program.add_option("--range", arguments.range_km);
   program.add_option("--error", arguments.error_px);
+  program.add_option("--deadline", arguments.deadline_ms, "of a frame, ms; 0: its period");
   CLI11_PARSE(program, argc, argv);
   return fly(arguments);
 }

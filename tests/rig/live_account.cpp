@@ -93,26 +93,35 @@ Finding bus(const LiveSample& a, const LiveSample& b) {
            wide(received - std::min(received, taken)))};
 }
 
-/// Refused heartbeats of one interval that nothing is known to have caused.
+bool says(const LiveSample& sample, const char* reason) {
+  return std::find(sample.reasons.begin(), sample.reasons.end(), reason) != sample.reasons.end();
+}
+
+/// Refused heartbeats of one interval that nothing is known to have caused. Causes count from one
+/// interval before: a report may be made between a frame and its judgement.
 std::uint64_t without_cause(const LiveSample& before, const LiveSample& a, const LiveSample& b,
                             Counts& causes) {
   const Counts refused = since(a.refused, b.refused);
   std::uint64_t open = sum(refused);
   if (open == 0) return 0;
-  // A report may be made between a frame and its judgement, so causes count from one before.
   if (b.away_ms - before.away_ms >= still_ms) {
     causes["the machine stood still"] += open;
     return 0;
   }
-  Counts named = since(before.overruns, b.overruns);
-  for (const auto& [name, count] : named) {
-    const std::uint64_t by_it = std::min(open, count);
-    causes["overrun in " + name] += by_it;
-    open -= by_it;
+  if (const auto late = refused.find("finished_late"); late != refused.end()) {
+    for (const auto& [name, count] : since(before.overruns, b.overruns)) {
+      const std::uint64_t by_it = std::min(late->second, count);
+      causes["overrun in " + name] += std::min(open, by_it);
+      open -= std::min(open, by_it);
+    }
   }
-  for (const auto& [name, count] : refused) {
-    if (open > 0) causes["none known: " + name] += open;
+  if (const auto none = refused.find("bound_missing"); none != refused.end()) {
+    if (says(before, "overload") || says(a, "overload") || says(b, "overload")) {
+      causes["terrain given up for time"] += std::min(open, none->second);
+      open -= std::min(open, none->second);
+    }
   }
+  if (open > 0) causes["none known: " + words(refused)] += open;
   return open;
 }
 
@@ -134,7 +143,7 @@ std::vector<Finding> edges(const LiveSample& a, const LiveSample& b) {
   const std::uint64_t judged = b.edges - a.edges + sum(since(a.refused, b.refused));
   const std::uint64_t drawn = b.drawn - a.drawn;
   const std::uint64_t unjudged = drawn - std::min(judged, drawn);
-  const std::uint64_t told = b.edges - a.edges, seen = b.edges_seen - a.edges_seen;
+  const std::uint64_t told = b.edges, seen = b.edges_seen;  // watched since before the first
   const std::uint64_t apart = std::max(told, seen) - std::min(told, seen);
   return {{unjudged <= 1, text("frames that were never judged: %llu", wide(unjudged))},
           {apart <= at_the_end && seen > 0,
@@ -143,8 +152,9 @@ std::vector<Finding> edges(const LiveSample& a, const LiveSample& b) {
 }
 
 Finding pictures(const LiveSample& a, const LiveSample& b) {
-  const bool good = b.removed == a.removed && b.present_faults == a.present_faults &&
-                    b.picture_stalls == a.picture_stalls && b.log_dropped == a.log_dropped;
+  // Removed ones have no heartbeat, so their cause is asked for there.
+  const bool good =
+      b.present_faults == a.present_faults && b.log_dropped == a.log_dropped && b.mode != "removed";
   return {good,
           text("pictures: %llu drawn, %llu late, %llu degraded, %llu removed, %llu not shown; "
                "stalls %llu, log lines dropped %llu",
@@ -166,6 +176,7 @@ LiveSample sample_of(const Json& status) {
   s.up_s = status.at("up_s");
   const Json& frames = status.at("frames");
   s.mode = frames.at("mode");
+  s.reasons = frames.at("reasons").get<std::vector<std::string>>();
   s.drawn = frames.at("drawn");
   s.late = frames.at("late");
   s.degraded = frames.at("degraded");

@@ -12,6 +12,7 @@ namespace ridgeline::rig {
 struct LiveSample {
   double up_s = 0;  ///< since the program began, by its own report
   std::string mode;
+  std::vector<std::string> reasons;
   std::uint64_t drawn = 0, late = 0, degraded = 0, removed = 0, present_faults = 0;
   std::uint64_t edges = 0, picture_stalls = 0;
   std::map<std::string, std::uint64_t> refused;   ///< heartbeats, by reason
@@ -41,8 +42,8 @@ struct Finding {
 };
 
 /// What a run came to, between its first and its last sample. A heartbeat that did not come has a
-/// cause where its frame overran for one that the program names, or where the machine stood still
-/// about then.
+/// cause where the machine stood still about then, where the frame overran for one that the program
+/// names, or where the program gave the terrain up for time, which it says as well.
 /// Domain: two samples at least, in order of time, the first with terrain in the picture.
 [[nodiscard]] std::vector<Finding> account(const std::vector<LiveSample>& samples);
 
