@@ -79,6 +79,14 @@ Status take(Result<T> result, T& target) {
   return {};
 }
 
+/// What is drawn keeps so much of its colours on its way into the target, over `under` of what is
+/// there: dimming costs no pass, and by day nothing at all.
+void blend_dimmed(float kept, GLenum under) {
+  glEnable(GL_BLEND);
+  glBlendColor(kept, kept, kept, 1.0F);
+  glBlendFunc(kept < 1.0F ? GL_CONSTANT_COLOR : GL_ONE, under);
+}
+
 Result<Framebuffer> make_target(const Texture& texture) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);
@@ -312,8 +320,8 @@ void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {
   write_frame_block(blocks);
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
-                          const TileRange& tiles) const {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles,
+                          float kept) const {
   const bool whole = &target == &colour_target_;
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, whole ? sizes_.width_px : rays_width(),
@@ -323,8 +331,10 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
+  if (kept < 1.0F) blend_dimmed(kept, GL_ZERO);
   glUseProgram(program.name());
   tile_list().draw(tiles.first, tiles.count);
+  glDisable(GL_BLEND);
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
@@ -339,16 +349,16 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   word_tiles_.write(0, bands.view());
 }
 
-void Renderer::draw_words() const {
+void Renderer::draw_words(float kept) const {
   if (word_count_ == 0) return;
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  blend_dimmed(kept, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(words_.name());
   word_tiles_.draw(0, word_count_);
   glDisable(GL_BLEND);
 }
 
-void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading,
+                     const Dimming& dimming) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
   write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
@@ -360,9 +370,9 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style,
   const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
   draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
-  draw_tiles(colour_target_, present_, ground_tiles());
-  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
-  draw_words();
+  draw_tiles(colour_target_, present_, ground_tiles(), dimming.picture);
+  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles}, dimming.picture);
+  draw_words(dimming.words);
   timer_.stamp(pass_count);
   glFlush();
 }

@@ -28,6 +28,13 @@ inline constexpr double gpu_bytes_per_post = 4.0 * (1.0 + 0.375);
 enum class Shading : std::uint8_t { full, no_lines, facets, plain };
 inline constexpr std::size_t shading_count = 4;
 
+/// What colours keep of themselves on their way into the picture, as it is encoded: factors of all
+/// three channels alike. 1: everything, and not a bit is touched.
+struct Dimming {
+  float picture = 1.0F;  ///< ground, sky, pitch line
+  float words = 1.0F;
+};
+
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
   std::uint32_t rays_cast = 0;   ///< pixels whose ray was followed through the terrain
@@ -73,7 +80,8 @@ class Renderer {
   /// From here on every pixel has its own ray: for pictures without terrain, or by others.
   void use_single_rays() { tiles_shown_ = {}; }
   /// Shades the current range picture into the colour target.
-  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading);
+  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading,
+             const Dimming& dimming = {});
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
   void upload_text(std::span<const std::uint8_t> layer);
 
@@ -102,10 +110,11 @@ class Renderer {
   struct TileRange {
     int first = 0, count = 0;
   };
-  /// Draws tiles with a program into a target.
-  void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles) const;
+  /// Draws tiles with a program into a target; `kept` as in Dimming.
+  void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles,
+                  float kept = 1.0F) const;
   /// Draws the text layer over the colour target.
-  void draw_words() const;
+  void draw_words(float kept) const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
   [[nodiscard]] const TileList& tile_list() const {
