@@ -178,6 +178,7 @@ void add_replay_command(CLI::App& program, int& status) {
   command->add_option("LOG", options.log_file, "recorded bus: candump, Vector ASC or PEAK TRC text")
       ->required();
   add_scene_options(*command, *arguments);
+  add_display_options(*command, options.display);
   command->add_option("--rate", options.rate_hz, "frames per second of log time")
       ->check(within(0.01, 200.0))
       ->capture_default_str();

@@ -48,6 +48,7 @@ FrameInput input_of(const OwnshipPose& pose, const GroundCheck& ground, std::int
     add_reason(input.availability, Reason::heading_reference_assumed);
   }
   if (derived) add_reason(input.availability, Reason::attitude_derived);
+  input.display = options.display;
   return input;
 }
 

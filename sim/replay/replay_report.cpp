@@ -12,6 +12,7 @@
 #include "platform/gl_counter.hpp"
 #include "platform/heap_counter.hpp"
 #include "sim/output/percentile.hpp"
+#include "sim/session/display_json.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -159,6 +160,7 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["bound_px"] =
       promised ? nlohmann::ordered_json(report.bound_px) : nlohmann::ordered_json(nullptr);
   frame["range_m"] = report.range_m;
+  if (auto display = display_json(report.display); !display.is_null()) frame["display"] = display;
   frame["cpu_ms"] = picture.cpu_ms;
   const auto& ms = picture.counts.pass_ms;
   const double gpu_ms = std::accumulate(ms.begin(), ms.end(), 0.0);
