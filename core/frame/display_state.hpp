@@ -1,5 +1,5 @@
 #pragma once
-#include "core/render/renderer.hpp"
+#include "core/render/dimming.hpp"
 
 namespace ridgeline {
 

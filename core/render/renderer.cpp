@@ -77,14 +77,6 @@ Status take(Result<T> result, T& target) {
   return {};
 }
 
-/// What is drawn keeps so much of its colours on its way into the target, over `under` of what is
-/// there: dimming costs no pass, and by day nothing at all.
-void blend_dimmed(float kept, GLenum under) {
-  glEnable(GL_BLEND);
-  glBlendColor(kept, kept, kept, 1.0F);
-  glBlendFunc(kept < 1.0F ? GL_CONSTANT_COLOR : GL_ONE, under);
-}
-
 Result<Framebuffer> make_target(const Texture& texture) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/render/dimming.hpp"
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
@@ -27,13 +28,6 @@ inline constexpr double gpu_bytes_per_post = 4.0 * (1.0 + 0.375);
 /// itself; no ground at all, for frames without terrain.
 enum class Shading : std::uint8_t { full, no_lines, facets, plain };
 inline constexpr std::size_t shading_count = 4;
-
-/// What colours keep of themselves on their way into the picture, as it is encoded: factors of all
-/// three channels alike. 1: everything, and not a bit is touched.
-struct Dimming {
-  float picture = 1.0F;  ///< ground, sky, pitch line
-  float words = 1.0F;
-};
 
 /// What the GPU counted in one frame; read back only where a caller waits for the frame anyway.
 struct RenderCounters {
