@@ -202,7 +202,7 @@ inline constexpr double flight_speed_mps = 25.0;
 inline constexpr double flight_height_m = 70.0;
 inline constexpr std::int64_t flight_ns = 2 * second_ns;
 /// Standing: slower than receivers err, no higher than terrain and receiver explain. Half a minute:
-/// a tow, a rope or a headwind do not hold an aeroplane in the air for so long.
+/// no headwind holds an aeroplane that low over one place for so long.
 inline constexpr double standing_speed_mps = 2.0;
 inline constexpr double standing_height_m = 55.0;
 inline constexpr std::int64_t standing_ns = 30 * second_ns;
