@@ -17,7 +17,8 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -42,7 +43,12 @@ Json row_json(const BenchRow& row) {
   json["wrong_class_pixels"] = row.error.wrong_class;
   json["judged_pixels"] = row.error.errors_px.size();
   json["ray_cast_share"] = row.ray_cast_share;
-  json["steps_per_pixel"] = or_null(row.mean_steps());
+  const std::optional<PixelSteps> steps = row.mean_steps();
+  const auto part = [&](double PixelSteps::*of) { return steps ? Json((*steps).*of) : Json(); };
+  json["steps_per_pixel"] = steps ? Json(steps->all()) : Json();
+  json["nodes_per_pixel"] = part(&PixelSteps::nodes);
+  json["cells_per_pixel"] = part(&PixelSteps::cells);
+  json["grid_nodes_per_pixel"] = part(&PixelSteps::grid_nodes);
   json["gpu_bytes"] = row.gpu_bytes;
   json["heap_bytes"] = row.heap_bytes;
   json["build_ms"] = row.build_ms;
@@ -62,6 +68,16 @@ __attribute__((format(printf, 2, 3))) void add(std::string& text, const char* fo
   text += line;
 }
 
+/// Both sorts of nodes and the cells; a word where nothing was counted.
+std::string steps_text(const BenchRow& row) {
+  const std::optional<PixelSteps> steps = row.mean_steps();
+  if (!steps) return row.frame_ms.empty() ? "–" : "not counted";
+  if (steps->all() == 0) return "0";
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f + %.2f", steps->nodes + steps->grid_nodes, steps->cells);
+  return text;
+}
+
 void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
   constexpr double mib = 1.0 / (1024.0 * 1024.0);
   const auto number = [](const std::optional<double>& value, const char* format) {
@@ -77,14 +93,15 @@ void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
       number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
       row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
       row.error.percent_over_px(1.0), row.error.wrong_class, 100.0 * row.ray_cast_share,
-      number(row.mean_steps(), "%.2f").c_str(), static_cast<double>(row.gpu_bytes) * mib,
+      steps_text(row).c_str(), static_cast<double>(row.gpu_bytes) * mib,
       static_cast<double>(row.heap_bytes) * mib, row.build_ms);
 }
 
 void add_table(std::string& text, const BenchResult& result, bool of_all) {
   text +=
       "| method | view | median ms | p99 ms | max ms | times fastest | core ms | GPU ms | bound px "
-      "| error max px | p99 px | mean px | % over 1 px | wrong class | % ray cast | steps a px | "
+      "| error max px | p99 px | mean px | % over 1 px | wrong class | % ray cast | steps a px, "
+      "nodes + cells | "
       "GPU MiB | heap MiB | build ms |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const BenchRow& row : result.rows) {
@@ -169,9 +186,16 @@ std::optional<double> BenchRow::median_gpu_ms() const {
   return median > 0 ? std::optional(median) : std::nullopt;
 }
 
-std::optional<double> BenchRow::mean_steps() const {
-  const double sum = std::accumulate(steps.begin(), steps.end(), 0.0);
-  return sum > 0 ? std::optional(sum / static_cast<double>(steps.size())) : std::nullopt;
+std::optional<PixelSteps> BenchRow::mean_steps() const {
+  if (steps.empty()) return std::nullopt;
+  PixelSteps mean;
+  const double share = 1.0 / static_cast<double>(steps.size());
+  for (const PixelSteps& one : steps) {
+    mean.nodes += share * one.nodes;
+    mean.cells += share * one.cells;
+    mean.grid_nodes += share * one.grid_nodes;
+  }
+  return mean;
 }
 
 std::string bench_json(const BenchResult& result) {

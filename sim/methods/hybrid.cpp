@@ -11,6 +11,7 @@
 #include "sim/methods/hybrid_cells.hpp"
 #include "sim/methods/raster_target.hpp"
 #include "sim/methods/setting_reader.hpp"
+#include "sim/methods/step_counter.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -123,6 +124,12 @@ class Hybrid final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  [[nodiscard]] RaySteps ray_steps() const override { return RaySteps::counted; }
+  Outcome use_counting(bool counting) override {
+    return counting_.use(counting,
+                         {"hybrid_cast", shader::hybrid_cast_vert, shader::hybrid_cast_frag},
+                         cast_.program);
+  }
   [[nodiscard]] MethodFacts facts() override;
 
  private:
@@ -132,6 +139,7 @@ class Hybrid final : public Method {
   HybridSettings settings_;
   RasterTarget target_;
   CellPass mesh_, cast_;
+  CountingProgram counting_;
   Framebuffer read_back_;
   GLuint range_ = 0;
   RenderSizes sizes_;

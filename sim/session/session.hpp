@@ -10,6 +10,7 @@
 #include "platform/scene.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
 #include "sim/methods/method.hpp"
+#include "sim/methods/step_counter.hpp"
 #include "sim/output/outcome.hpp"
 #include "sim/terrain_input/edit_list.hpp"
 
@@ -80,6 +81,12 @@ class Session {
   /// `want_pixels`: read range and colour back (not part of cpu_ms).
   Picture draw(const FrameInput& input, bool want_pixels);
 
+  /// The same in variants of the programs in use that count the steps of rays and planes. The
+  /// picture is the same; not so the time.
+  /// `steps`: nothing where they cannot be counted, and where nothing was drawn.
+  Picture draw_counting(const FrameInput& input, bool want_pixels,
+                        std::optional<StepCounts>& steps);
+
   /// Messages about refused tiles that were not reported yet.
   std::vector<std::string> new_problems() { return scene_.worker().new_problems(); }
   [[nodiscard]] const FrameSettings& settings() const { return scene_.settings(); }
@@ -108,6 +115,7 @@ class Session {
   void settle_if_due(const FrameInput& input);
   Outcome open_renderer();
   [[nodiscard]] MethodTerrain method_terrain();
+  Outcome use_counting(bool counting);
 
   /// The state of the terrain window that a method was built from.
   struct WindowState {
@@ -136,6 +144,7 @@ class Session {
   std::vector<std::uint8_t> rgba_;
   std::vector<Kept> methods_;
   Method* method_ = nullptr;  ///< in use
+  StepCounter step_counter_;
   std::vector<float> method_posts_;
   std::optional<WindowState> method_posts_of_;
 };
