@@ -124,6 +124,7 @@ class Hybrid final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  void warm_up(const RangeScene& scene) override;
   [[nodiscard]] RaySteps ray_steps() const override { return RaySteps::counted; }
   Outcome use_counting(bool counting) override {
     return counting_.use(counting,
@@ -135,6 +136,7 @@ class Hybrid final : public Method {
  private:
   Outcome make_programs();
   void choose(const RangeScene& scene);
+  void draw_chosen(const RangeScene& scene);
 
   HybridSettings settings_;
   RasterTarget target_;
@@ -211,6 +213,19 @@ void Hybrid::choose(const RangeScene& scene) {
 
 void Hybrid::draw(const RangeScene& scene) {
   choose(scene);
+  draw_chosen(scene);
+}
+
+void Hybrid::warm_up(const RangeScene& scene) {
+  choose(scene);
+  // One cell more than there may be to see, drawn in both ways.
+  for (CellPass* pass : {&mesh_, &cast_}) {
+    if (pass->chosen.empty() && pass->capacity > 0) pass->chosen.push_back({0, 0, 0, 1 << 8 | 1});
+  }
+  draw_chosen(scene);
+}
+
+void Hybrid::draw_chosen(const RangeScene& scene) {
   range_ = scene.renderer.names().range;
   target_.begin(scene.renderer);
   glUseProgram(mesh_.program.name());

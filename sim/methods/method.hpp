@@ -52,6 +52,9 @@ class Method {
   /// Draws Renderer::names().range: R32UI, distance along the ray as float bits; 1e30 sky, negative
   /// unknown; every pixel is written. Row 0 of the target is the top of the picture.
   virtual void draw(const RangeScene& scene) = 0;
+  /// Draws as draw() does, but runs every program the method has, needed by this scene or not: a
+  /// driver compiles a program at its first use, which belongs to boot. After the first build().
+  virtual void warm_up(const RangeScene& scene) { draw(scene); }
   /// Draws over the shaded colour target what a range picture cannot show; after a frame's time,
   /// and only where its picture is wanted. The blocks and textures of shade() are still bound.
   virtual void finish_picture(const Renderer& renderer) { static_cast<void>(renderer); }

@@ -116,6 +116,7 @@ class Session {
   Outcome open_renderer();
   [[nodiscard]] MethodTerrain method_terrain();
   Outcome use_counting(bool counting);
+  void warm_up(const FrameInput& input);
 
   /// The state of the terrain window that a method was built from.
   struct WindowState {

@@ -52,6 +52,17 @@ MethodTerrain Session::method_terrain() {
           scene_.settings().range_m};
 }
 
+void Session::warm_up(const FrameInput& input) {
+  FrameSettings settings = scene_.settings();
+  settings.pace = nullptr;
+  const auto draw = [](void* method, const RangeScene& scene) {
+    static_cast<Method*>(method)->warm_up(scene);
+  };
+  settings.instead = {draw, method_};
+  FrameReport report = scene_.draw(settings, input);
+  scene_.finish(report);
+}
+
 Outcome Session::prepare(const FrameInput& input) {
   if (method_ == nullptr) return {};
   if (input.availability.mode == Mode::removed || !local_frame(input.eye).ok()) return {};
@@ -68,7 +79,9 @@ Outcome Session::prepare(const FrameInput& input) {
   const double start_ms = now_ms();
   Outcome built = method_->build(terrain, scene_.renderer().sizes());
   kept->build_ms = now_ms() - start_ms;
-  if (built.ok()) kept->built = state;
+  if (!built.ok()) return built;
+  if (!kept->built) warm_up(input);
+  kept->built = state;
   return built;
 }
 

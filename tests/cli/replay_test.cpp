@@ -102,6 +102,19 @@ TEST_F(Demo, the_frame_path_allocates_nothing_after_boot) {
   EXPECT_GT(json["mapped_bytes"].get<double>(), 1e6);
 }
 
+TEST_F(Demo, nor_does_it_by_any_other_method) {
+  // From the same frames on: what a driver compiles at the first use of a program counts as well.
+  for (const char* method :
+       {"pgm:grid=64x64", "loffler:grid=64x64", "loffler:grid=64x64,rays=0", "warp:grid=64",
+        "hybrid", "hybrid:t=1e9", "clipmap", "mesh", "raycast"}) {
+    const Json json = report({"--from", "10", "--to", "11", "--rate", "5", "--method", method});
+    EXPECT_EQ(json["frame_count"], 6) << method;
+    EXPECT_EQ(json["removed_frames"], 0) << method;
+    EXPECT_EQ(json["allocations_after_boot"], 0) << method;
+    EXPECT_EQ(json["gl_creations_after_boot"], 0) << method;
+  }
+}
+
 TEST_F(Demo, removed_frames_leave_no_range_file) {
   const std::string dump = folder().file("lost");
   ASSERT_EQ(
