@@ -85,7 +85,9 @@ Outcome Run::time_frame(const BenchMethod& method, const BenchView& view, bool c
   row.frame_ms.push_back(picture.cpu_ms);
   row.range_m = picture.report.range_m;
   const auto& ms = picture.counts.pass_ms;
-  row.gpu_ms.push_back(std::accumulate(ms.begin(), ms.end(), 0.0));
+  if (const double gpu_ms = std::accumulate(ms.begin(), ms.end(), 0.0); gpu_ms > 0) {
+    row.gpu_ms.push_back(gpu_ms);
+  }
   const double bound_px = std::max(picture.report.bound_px, picture.method.bound_px);
   if (bound_px > 0) row.bound_px = std::max(row.bound_px.value_or(0.0), bound_px);
   const auto frames = static_cast<double>(row.frame_ms.size());

@@ -95,6 +95,30 @@ TEST(Bench, by_default_draws_every_method_there_is_from_six_fixed_views) {
   }
 }
 
+TEST(Bench, gpu_time_is_told_where_the_driver_gives_it_and_a_dash_where_not) {
+  const TemporaryFolder out;
+  const std::string file = out.file("bench.json");
+  const std::vector<std::string> arguments =
+      small_bench({"--log", demo().path() + "/demo.log", "--views", "2", "--methods",
+                   "ridgeline:error=1,mesh", "--json", file});
+  // Mesa's software driver has timer queries; a program that cannot see them has no GPU time.
+  const Ended timed = ridgeline(arguments);
+  ASSERT_EQ(timed.status, 0) << timed.err;
+  for (const Json& row : Json::parse(text_of(file))["rows"]) {
+    ASSERT_TRUE(row["gpu_ms"].is_number()) << row;
+    EXPECT_GT(row["gpu_ms"], 0.0) << row;
+    EXPECT_LE(row["gpu_ms"], row["frame_ms_max"]) << row;
+  }
+  const Ended untimed =
+      ridgeline(arguments, "MESA_EXTENSION_OVERRIDE=-GL_EXT_disjoint_timer_query");
+  ASSERT_EQ(untimed.status, 0) << untimed.err;
+  for (const Json& row : Json::parse(text_of(file))["rows"]) {
+    EXPECT_TRUE(row["gpu_ms"].is_null()) << row;
+    EXPECT_GT(row["frame_ms_median"], 0.0) << row;
+  }
+  EXPECT_NE(untimed.out.find(" | – | 1.0"), std::string::npos) << untimed.out;
+}
+
 TEST(Bench, wrong_usage_is_told_in_one_line) {
   const FlatScene scene;
   const std::string puget = scene.file("puget.png");
