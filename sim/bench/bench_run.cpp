@@ -46,7 +46,7 @@ class Run {
  private:
   void use(const BenchMethod& method) {
     session_.settings() = method.settings;
-    session_.use(method.method);
+    session_.use(method.method, method.bearing.get());
   }
   [[nodiscard]] BenchRow row_of(const BenchMethod& method, const BenchView& view) const;
   Outcome time_frame(const BenchMethod& method, const BenchView& view, bool counted, BenchRow& row);

@@ -68,7 +68,12 @@ class Session {
   /// Takes a method in; it stays until the session ends. Draw with it after use().
   Method& keep(std::unique_ptr<Method> method);
   /// Draws with a kept method from now on; null: with the module's own passes again.
-  void use(Method* method) { method_ = method; }
+  /// `bearing`: what those keep from frame to frame, where settings take turns; null: the
+  /// session's.
+  void use(Method* method, BlockBearing* bearing = nullptr) {
+    method_ = method;
+    scene_.use_bearing(bearing);
+  }
   /// Applies edits, settles the terrain window round the eye and builds the method in use from it,
   /// where the window is not the one it was built from. Nothing to do for the module's own passes.
   /// draw() calls it; call it before where its time must not be part of a measurement.
