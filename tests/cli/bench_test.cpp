@@ -67,10 +67,12 @@ TEST(Bench, a_flight_gives_a_row_for_every_method_and_view_and_one_over_all) {
     }
     if (row["method"] == "raycast") {
       EXPECT_EQ(row["ray_cast_share"], 1.0) << row;
+      EXPECT_GT(row["nodes_per_pixel"], 1.0) << row;
     }
     if (row["method"] == "mesh") {
       EXPECT_EQ(row["ray_cast_share"], 0.0) << row;
     }
+    EXPECT_EQ(row["steps_per_pixel"] > 0.0, promises) << row;
   }
   EXPECT_EQ(text_of(table_file), ended.out);
   EXPECT_EQ(text_of(svg_file).rfind("<svg", 0), 0U);
