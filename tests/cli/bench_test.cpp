@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/grey_png_writer.hpp"
 
 namespace ridgeline::test {
 namespace {
@@ -121,6 +123,28 @@ TEST(Bench, gpu_time_is_told_where_the_driver_gives_it_and_a_dash_where_not) {
   EXPECT_NE(untimed.out.find(" | – | 1.0"), std::string::npos) << untimed.out;
 }
 
+TEST(Bench, the_map_of_puget_sound_can_be_drawn_by_every_method_from_views_of_its_own) {
+  const TemporaryFolder folder;
+  const std::string map = folder.file("map.png"), file = folder.file("bench.json");
+  write_grey_png(map, 129, 129, 16, [](int column, int row) {
+    return 4000 + 2000 * std::sin(0.7 * column) * std::cos(0.9 * row);
+  });
+  const Ended ended = ridgeline({"bench", "--puget", map, "--size", "64x48", "--views", "3",
+                                 "--repeats", "1", "--pixels", "60", "--methods",
+                                 "ridgeline:error=1,raycast,pgm:grid=64x64", "--json", file});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const Json rows = Json::parse(text_of(file))["rows"];
+  EXPECT_EQ(rows.size(), 3U * (3 + 1));
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["terrain"], map);
+    EXPECT_EQ(row["removed_views"], 0) << row;
+    EXPECT_EQ(row["range_m"], 50'000.0) << row;
+    if (row["method"] != "pgm") {
+      EXPECT_LE(row["error_px_max"], row["bound_px"]) << row;
+    }
+  }
+}
+
 TEST(Bench, wrong_usage_is_told_in_one_line) {
   const FlatScene scene;
   const std::string puget = scene.file("puget.png");
@@ -131,7 +155,9 @@ TEST(Bench, wrong_usage_is_told_in_one_line) {
                   {"its own terrain"});
   expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget, "--size", "64x48"}), 2,
                   {"size"});
-  expect_one_line(ridgeline({"bench", "--puget", puget, "--terrain", "x"}), 2, {"--paper"});
+  expect_one_line(ridgeline({"bench", "--puget", puget, "--terrain", "x"}), 2, {"its own terrain"});
+  expect_one_line(ridgeline({"bench", "--puget", puget, "--log", "x"}), 2, {"its own terrain"});
+  expect_one_line(ridgeline({"bench", "--puget", puget}), 3, {puget, "no such file"});
   expect_one_line(ridgeline({"bench", "--paper", "livny", "--puget", puget}), 3,
                   {puget, "no such file"});
   for (const char* methods : {"magic", "mesh:fast=1", "mesh,ridgeline:error=x", "mesh,,raycast"}) {
