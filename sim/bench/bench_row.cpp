@@ -68,16 +68,6 @@ __attribute__((format(printf, 2, 3))) void add(std::string& text, const char* fo
   text += line;
 }
 
-/// Both sorts of nodes and the cells; a word where nothing was counted.
-std::string steps_text(const BenchRow& row) {
-  const std::optional<PixelSteps> steps = row.mean_steps();
-  if (!steps) return row.frame_ms.empty() ? "–" : "not counted";
-  if (steps->all() == 0) return "0";
-  char text[48];
-  std::snprintf(text, sizeof text, "%.2f + %.2f", steps->nodes + steps->grid_nodes, steps->cells);
-  return text;
-}
-
 void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
   constexpr double mib = 1.0 / (1024.0 * 1024.0);
   const auto number = [](const std::optional<double>& value, const char* format) {
@@ -196,6 +186,15 @@ std::optional<PixelSteps> BenchRow::mean_steps() const {
     mean.grid_nodes += share * one.grid_nodes;
   }
   return mean;
+}
+
+std::string steps_text(const BenchRow& row) {
+  const std::optional<PixelSteps> steps = row.mean_steps();
+  if (!steps) return row.frame_ms.empty() ? "–" : "not counted";
+  if (steps->all() == 0) return "0";
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f + %.2f", steps->nodes + steps->grid_nodes, steps->cells);
+  return text;
 }
 
 std::string bench_json(const BenchResult& result) {

@@ -62,6 +62,9 @@ struct BenchResult {
   std::vector<AbsentMethod> absent;
 };
 
+/// Steps a pixel of a row: nodes of both sorts + cells; a word where nobody counted them.
+[[nodiscard]] std::string steps_text(const BenchRow& row);
+
 /// The rows as JSON, contract section 4; `absent` stands beside them.
 [[nodiscard]] std::string bench_json(const BenchResult& result);
 
