@@ -110,6 +110,8 @@ class Renderer {
   };
   /// Draws tiles with a program into a target.
   void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles) const;
+  /// Their squares, by number.
+  [[nodiscard]] TileRange squares_of(const TileRange& tiles, TileFace face) const;
   /// Draws the text layer over the colour target.
   void draw_words() const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
@@ -124,11 +126,13 @@ class Renderer {
   /// Where a pyramid level stands in its layer; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
+  static constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
+
   RenderSizes sizes_;
   Program sweep_, ray_cast_, count_, present_, sky_, words_;
   std::array<Program, shading_count> shade_;
-  Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
-  Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
+  Texture posts_, highest_, nodes_, slopes_, range_, shaded_, colour_, text_;
+  Buffer frame_block_, grid_block_, style_block_, planes_, counters_;
   TileList tiles_, single_tiles_, word_tiles_;
   RayTiles tiles_shown_;  ///< the caller's; empty: single rays
   int single_count_ = 0, word_count_ = 0;

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "shaders/ray_cast_frag.hpp"
+#include "shaders/ray_cast_vert.hpp"
 #include "shaders/sweep_comp.hpp"
-#include "shaders/tile_rays_vert.hpp"
 #include "sim/methods/raster_target.hpp"
 
 namespace ridgeline::sim {
@@ -53,7 +53,7 @@ Outcome StepCounter::make(const Renderer& renderer) {
   Outcome made = make_method_program(
       "counting sweep", counting_source(shader::sweep_comp, StepsOf::grid), sweep_, defines);
   if (made.ok()) {
-    made = make_method_program("counting ray_cast", shader::tile_rays_vert,
+    made = make_method_program("counting ray_cast", shader::ray_cast_vert,
                                counting_source(shader::ray_cast_frag, StepsOf::rays), ray_cast_,
                                defines);
   }
