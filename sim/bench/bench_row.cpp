@@ -33,7 +33,7 @@ Json row_json(const BenchRow& row) {
   json["frame_ms_median"] = row.median_ms();
   json["frame_ms_p99"] = percentile(row.frame_ms, 0.99);
   json["frame_ms_max"] = percentile(row.frame_ms, 1.0);
-  json["core_ms"] = percentile(row.core_ms, 0.5);
+  json["core_ms"] = row.median_core_ms();
   json["gpu_ms"] = or_null(row.median_gpu_ms());
   json["error_px_max"] = row.error.worst_px;
   json["error_px_max_is_larger"] = row.error.worst_is_larger;
@@ -78,7 +78,7 @@ void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
   add(text, "| %s | %s | %.1f | %.1f | %.1f | %.2f | %.1f | %s |", row.spec.c_str(),
       row.view.c_str(), row.median_ms(), percentile(row.frame_ms, 0.99),
       percentile(row.frame_ms, 1.0), fastest_ms > 0 ? row.median_ms() / fastest_ms : 0.0,
-      percentile(row.core_ms, 0.5), number(row.median_gpu_ms(), "%.1f").c_str());
+      row.median_core_ms(), number(row.median_gpu_ms(), "%.1f").c_str());
   add(text, " %s | %s%.3f | %.3f | %.4f | %.2f | %d | %.0f | %s | %.1f | %.1f | %.0f |\n",
       number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
       row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
@@ -169,6 +169,10 @@ void BenchRow::join(const BenchRow& other) {
 
 double BenchRow::median_ms() const {
   return percentile(frame_ms, 0.5);
+}
+
+double BenchRow::median_core_ms() const {
+  return percentile(core_ms, 0.5);
 }
 
 std::optional<double> BenchRow::median_gpu_ms() const {

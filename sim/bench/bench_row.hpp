@@ -46,6 +46,7 @@ struct BenchRow {
   /// Takes in what another row of the same method measured.
   void join(const BenchRow& other);
   [[nodiscard]] double median_ms() const;
+  [[nodiscard]] double median_core_ms() const;
   [[nodiscard]] std::optional<double> median_gpu_ms() const;
   [[nodiscard]] std::optional<PixelSteps> mean_steps() const;
 };
