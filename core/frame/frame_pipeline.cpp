@@ -15,6 +15,8 @@ constexpr int grid_attempts = 8;     ///< to fit the grid into its capacity
 constexpr double coarser = 1.5;      ///< wider spacing for the next attempt
 constexpr double least_share = 2.0;  ///< of the height over the lowest ground: a cut range's least
 constexpr double most_of_distance = 8e-5;  ///< by which distances may be off where a ray looks down
+constexpr double wider_from_px = 2.0;      ///< bound from which the grid may be wider
+constexpr double widest = 2.0;             ///< and by how much at most
 constexpr double bound_growth = 1.1;       ///< step by which a bound that cannot be met is raised
 
 /// The display range of a frame, and what it can promise for it.
@@ -91,9 +93,13 @@ Result<Promise> honest_promise(const FrameSettings& settings, const FrameReport&
 }
 
 /// The grid as dense as wanted, or as its capacity allows: spacing costs time, never a pixel.
+/// Larger bounds have fewer rays for it to save steps for.
 PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, const Camera& camera) {
   PolarGrid grid;
   GridSpacing spacing = settings.node_spacing;
+  const double wider = std::clamp(settings.error_px / wider_from_px, 1.0, widest);
+  spacing.planes_px *= wider;
+  spacing.rows_px *= wider;
   for (int attempt = 0; attempt < grid_attempts && !settings.cast_every_pixel; ++attempt) {
     grid = polar_grid(camera, spacing);
     if (grid.plane_count <= sizes.planes && grid.row_count <= sizes.rows) return grid;

@@ -177,9 +177,8 @@ Status Renderer::make_storage() {
 }
 
 Status Renderer::make_tiles() {
-  bind_texture(shader::shaded_unit, shaded_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  blended_ = make_sampler(GL_LINEAR);
+  blocky_ = make_sampler(GL_NEAREST);
   const int columns = most_tiles(sizes_.width_px), rows = most_tiles(sizes_.height_px);
   const int most = columns * rows, squares = most_squares(columns, rows);
   constexpr int bands = static_cast<int>(most_text_bands);
@@ -361,10 +360,15 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   RL_ASSERT(layer.size() == static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px);
   bind_texture(shader::text_unit, text_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.width_px, sizes_.height_px, GL_RED,
-                  GL_UNSIGNED_BYTE, layer.data());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, sizes_.width_px);
   const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
+  for (const RayTile& band : bands.view()) {  // nothing else of the layer is drawn
+    const auto first = static_cast<std::size_t>(band.y()) * sizes_.width_px + band.x();
+    glTexSubImage2D(GL_TEXTURE_2D, 0, band.x(), band.y(), band.width(), band.height(), GL_RED,
+                    GL_UNSIGNED_BYTE, layer.data() + first);
+  }
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   word_count_ = static_cast<int>(bands.size());
   word_tiles_.write(0, bands.view());
 }
@@ -390,7 +394,11 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style,
   const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
   draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
+  // Colours between rays are blended, but for the picture that has to be had fast.
+  const Sampler& taken = shading == Shading::facets ? blocky_ : blended_;
+  glBindSampler(shader::shaded_unit, taken.name());
   draw_tiles(colour_target_, present_, ground_tiles());
+  glBindSampler(shader::shaded_unit, 0);
   if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
   draw_words();
   timer_.stamp(pass_count);

@@ -133,6 +133,7 @@ class Renderer {
   std::array<Program, shading_count> shade_;
   Texture posts_, highest_, nodes_, slopes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, counters_;
+  Sampler blended_, blocky_;  ///< how colours are taken from rays
   TileList tiles_, single_tiles_, word_tiles_;
   RayTiles tiles_shown_;  ///< the caller's; empty: single rays
   int single_count_ = 0, word_count_ = 0;

@@ -6,6 +6,7 @@
 
 #include "core/base/assert.hpp"
 #include "core/base/fixed_vector.hpp"
+#include "core/render/squares.hpp"
 #include "shaders/frame_block.h"
 
 namespace ridgeline {
@@ -34,12 +35,8 @@ FaceSize face_size(const RayTile& tile, TileFace face) {
 
 int square_count(const RayTile& tile, TileFace face) {
   const FaceSize size = face_size(tile, face);
-  int shorter = std::min(size.width, size.height), longer = std::max(size.width, size.height);
   int count = 0;
-  while (shorter > 0) {  // Euclid's algorithm counts them
-    count += longer / shorter;
-    longer = std::exchange(shorter, longer % shorter);
-  }
+  cut_into_squares(size.width, size.height, [&](int, int, int) { ++count; });
   return count;
 }
 
@@ -101,17 +98,12 @@ void TileList::write_squares(int first, std::span<const RayTile> records, TileFa
     waiting.clear();
   };
   for (const RayTile& tile : records) {
-    FaceSize rest = face_size(tile, face);
-    int x = 0, y = 0;
-    while (rest.width > 0 && rest.height > 0) {
+    const FaceSize size = face_size(tile, face);
+    cut_into_squares(size.width, size.height, [&](int x, int y, int side) {
       if (waiting.size() == written_at_once) put();
-      const int side = std::min(rest.width, rest.height);
       waiting.push_back({static_cast<std::uint32_t>(first),
                          static_cast<std::uint32_t>(x | y << 12 | side << 24)});
-      const bool wide = rest.width > rest.height;
-      (wide ? x : y) += side;
-      (wide ? rest.width : rest.height) -= side;
-    }
+    });
     ++first;
   }
   put();

@@ -12,8 +12,8 @@ enum class TileFace { rays, pixels };
 /// Largest point a driver must draw: a square is one.
 inline constexpr int largest_square_px = ray_tile_px;
 
-/// Squares a face of a tile is cut into, without overlap: as many of its shorter side as there is
-/// room for, and the rest likewise. Domain: the shorter side is at most largest_square_px.
+/// Squares that a face of a tile is cut into (core/render/squares.hpp).
+/// Domain: the shorter side is at most largest_square_px.
 int square_count(const RayTile& tile, TileFace face);
 
 /// Squares at most of so many by so many tiles, whatever their blocks: of a whole tile 32 x 4 rays,
