@@ -1,6 +1,7 @@
 #include "core/render/renderer.hpp"
 
 #include <array>
+#include <utility>
 
 #include "core/render/text_bands.hpp"
 #include "shaders/count_comp.hpp"
@@ -108,8 +109,17 @@ Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& 
   return renderer;
 }
 
+std::string_view Renderer::march_defines() const {
+  return level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+}
+
+void Renderer::exchange_marches(Program& sweep, Program& ray_cast) {
+  std::swap(sweep_, sweep);
+  std::swap(ray_cast_, ray_cast);
+}
+
 Status Renderer::make_programs(ShaderLog log) {
-  const std::string_view defines = level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+  const std::string_view defines = march_defines();
   struct Entry {
     Program* program;
     std::string_view name, source;

@@ -91,6 +91,12 @@ class Renderer {
   /// Waits for the frame and reads its counters.
   [[nodiscard]] RenderCounters read_counters();
 
+  /// Exchanges the programs of grid and ray cast for others that draw the same: how the benchmark
+  /// counts their steps (sim/methods).
+  void exchange_marches(Program& sweep, Program& ray_cast);
+  /// What such programs are compiled with.
+  [[nodiscard]] std::string_view march_defines() const;
+
   [[nodiscard]] GpuTimer& timer() { return timer_; }
   [[nodiscard]] const RenderSizes& sizes() const { return sizes_; }
 
