@@ -41,6 +41,7 @@ RL_CONST(target_image, 0);
 // Shader storage buffers.
 RL_CONST(planes_buffer, 0);
 RL_CONST(counters_buffer, 2);
+RL_CONST(steps_buffer, 3);  // of programs that count their steps, which never fly
 
 RL_CONST(tile_list_width, 256);  // texels of a row of tile records
 

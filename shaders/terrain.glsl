@@ -3,6 +3,17 @@
 layout(binding = posts_unit) uniform highp sampler2DArray posts_texture;
 layout(binding = highest_unit) uniform highp sampler2DArray highest_texture;
 
+// Variants of the marches that the benchmark compiles count their steps (sim/methods/step_counter.hpp);
+// in what flies these names are nothing. count_steps: first of the program's two counters.
+#ifdef count_steps
+layout(std430, binding = steps_buffer) buffer Steps { uint steps_taken[]; };
+#define count_node atomicAdd(steps_taken[count_steps], 1u);
+#define count_cell atomicAdd(steps_taken[count_steps + 1], 1u);
+#else
+#define count_node
+#define count_cell
+#endif
+
 const float void_threshold = -50000.0;
 const float void_offset = 100000.0;
 const float sky = 1.0e30;
@@ -155,6 +166,7 @@ ivec2 pyramid_corner(ivec2 posts, int level) {
 // Highest height over the eye in the node of 2^size cells that holds `cell`, by a level of the
 // window (0 < size - level <= node_levels); the node's overlap included.
 float node_highest(Window w, ivec2 cell, int size, int level) {
+  count_node
   int up = size - level;
   ivec2 node = (level_place(w, level) >> up) + ((w.eye + cell) >> size);
   node = wrapped(node, w.posts >> up) + pyramid_corner(w.posts, up);

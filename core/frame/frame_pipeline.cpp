@@ -146,9 +146,12 @@ void tell_plan(const FrameSettings& settings, const FramePlan& plan, FrameReport
   if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
 }
 
+/// As the monitor planned it, and without lines where the pilot wants none. The monitor goes on as
+/// if they were there: what it has learnt does not change with a switch.
 Shading shading_of(const FrameReport& report) {
-  const bool removed = report.availability.mode == Mode::removed;
-  return removed ? Shading::plain : static_cast<Shading>(report.detail);
+  if (report.availability.mode == Mode::removed) return Shading::plain;
+  const ShadeDetail most = report.display.declutter ? ShadeDetail::no_lines : ShadeDetail::full;
+  return static_cast<Shading>(std::max(report.detail, most));
 }
 
 FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
@@ -157,6 +160,7 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   FrameReport report;
   report.time_ns = input.time_ns;
   report.availability = input.availability;
+  report.display = input.display;
   report.work.frames = 1;
   report.work.bus_frames = input.bus_frames;
 
@@ -248,7 +252,7 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
   if (report.availability.mode == Mode::removed) renderer.use_single_rays();
   renderer.upload_text(text_layer(report, tables.text));
   renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid),
-                 shading_of(report));
+                 shading_of(report), dimming_of(report.display, attitude_valid));
   const auto pixels = static_cast<std::int64_t>(report.camera.width_px) * report.camera.height_px;
   if (report.availability.mode == Mode::removed) report.work.shaded = 0;
   report.work.pixels = pixels;
@@ -273,7 +277,8 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
     renderer.use_single_rays();
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
-                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain);
+                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain,
+                   dimming_of(report.display, true));
   }
   return counts;
 }

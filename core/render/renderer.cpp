@@ -1,6 +1,7 @@
 #include "core/render/renderer.hpp"
 
 #include <array>
+#include <utility>
 
 #include "core/render/text_bands.hpp"
 #include "shaders/count_comp.hpp"
@@ -108,8 +109,17 @@ Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& 
   return renderer;
 }
 
+std::string_view Renderer::march_defines() const {
+  return level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+}
+
+void Renderer::exchange_marches(Program& sweep, Program& ray_cast) {
+  std::swap(sweep_, sweep);
+  std::swap(ray_cast_, ray_cast);
+}
+
 Status Renderer::make_programs(ShaderLog log) {
-  const std::string_view defines = level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+  const std::string_view defines = march_defines();
   struct Entry {
     Program* program;
     std::string_view name, source;
@@ -318,8 +328,8 @@ void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {
   write_frame_block(blocks);
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
-                          const TileRange& tiles) const {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles,
+                          float kept) const {
   const bool whole = &target == &colour_target_;
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, whole ? sizes_.width_px : rays_width(),
@@ -329,10 +339,12 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
+  if (kept < 1.0F) blend_dimmed(kept, GL_ZERO);
   glUseProgram(program.name());
   const TileFace face = whole ? TileFace::pixels : TileFace::rays;
   const TileRange squares = squares_of(tiles, face);
   tile_list().draw(face, squares.first, squares.count);
+  glDisable(GL_BLEND);
 }
 
 Renderer::TileRange Renderer::squares_of(const TileRange& tiles, TileFace face) const {
@@ -363,16 +375,16 @@ void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   word_tiles_.write(0, bands.view());
 }
 
-void Renderer::draw_words() const {
+void Renderer::draw_words(float kept) const {
   if (word_count_ == 0) return;
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  blend_dimmed(kept, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(words_.name());
   word_tiles_.draw(TileFace::pixels, 0, word_tiles_.squares(TileFace::pixels));
   glDisable(GL_BLEND);
 }
 
-void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading,
+                     const Dimming& dimming) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
   write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
@@ -387,10 +399,10 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style,
   // Colours between rays are blended, but for the picture that has to be had fast.
   const Sampler& taken = shading == Shading::facets ? blocky_ : blended_;
   glBindSampler(shader::shaded_unit, taken.name());
-  draw_tiles(colour_target_, present_, ground_tiles());
+  draw_tiles(colour_target_, present_, ground_tiles(), dimming.picture);
   glBindSampler(shader::shaded_unit, 0);
-  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
-  draw_words();
+  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles}, dimming.picture);
+  draw_words(dimming.words);
   timer_.stamp(pass_count);
   glFlush();
 }

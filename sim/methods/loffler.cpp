@@ -297,6 +297,11 @@ void Loffler::read_errors(std::span<float> errors) {
   }
 }
 
+Outcome Loffler::use_counting(bool counting) {
+  return counting_.use(
+      counting, {"loffler_cast", shader::loffler_cast_vert, shader::loffler_cast_frag}, cast_);
+}
+
 MethodFacts Loffler::facts() {
   MethodFacts facts;
   facts.gpu_bytes = gpu_bytes_;
