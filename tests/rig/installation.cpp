@@ -76,7 +76,8 @@ void Installation::configure(const InstallationSettings& s) const {
       << "\nheartbeat_input_ms = " << s.attitude_ms << "\nposition_ms = " << s.position_ms
       << "\nheight_ms = " << s.position_ms << "\npicture_ms = " << s.picture_ms << "\n";
   out << "[lines]\nheartbeat = " << quoted(s.heartbeat)
-      << "\nsvs_valid = \"rig-valid\"\nsvs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n";
+      << "\nsvs_valid = \"rig-valid\"\nsvs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n"
+      << "declutter = \"rig-decl\"\nnight = \"rig-night\"\non_ground = \"rig-ground\"\n";
   out << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = " << s.status_interval_s
       << "\nlast_frame_folder = \"last\"\n"
       << s.more;

@@ -51,7 +51,7 @@ class SimulatedChip {
   }
 
   /// Lines by their place.
-  enum Place { heartbeat, svs_valid, svs_fail, display_on };
+  enum Place { heartbeat, svs_valid, svs_fail, display_on, declutter, night, on_ground };
   static constexpr const char* names[] = {"rig-beat", "rig-valid", "rig-fail",  "rig-on",
                                           "rig-decl", "rig-night", "rig-ground"};
 
