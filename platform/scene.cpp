@@ -95,7 +95,9 @@ void Scene::warm_up() {
   renderer_->upload_text(text_);
   for (const Shading shading :
        {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
-    renderer_->shade(nothing, shader::StyleBlock{}, shading);
+    for (const float kept : {0.5F, 1.0F}) {  // by night as well
+      renderer_->shade(nothing, shader::StyleBlock{}, shading, Dimming{kept, kept});
+    }
   }
   static_cast<void>(renderer_->read_counters());
 }
