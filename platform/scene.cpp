@@ -89,8 +89,11 @@ void Scene::warm_up() {
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
   for (RayTile& tile : std::span(ray_tiles_).first(2)) tile.size = RayTile::pair(1, 1);
-  renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
-                          {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
+  for (const int near : {0, 1}) {
+    nothing.frame.near.x = near;
+    renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
+                            {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
+  }
   std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
   for (const Shading shading :

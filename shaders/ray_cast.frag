@@ -3,6 +3,12 @@
 layout(binding = nodes_unit) uniform highp sampler2D nodes_texture;
 layout(location = 0) out highp uint range_bits;  // the distance as float bits
 
+// Whether the frame may have ground round a low eye. Without it no pass through its loop is made: a
+// software GPU goes through every loop once.
+#ifndef near_ground
+#define near_ground 1
+#endif
+
 const float proven_sky = 1.5e30;  // no ray was cast: the grid proves the wedge empty
 const int near_step_limit = 1000;
 const float unresolved = 2.0e30;  // such a ray proves nothing: the frame is void
@@ -133,10 +139,12 @@ float first_hit(Ray r, float start, int size) {
   float bend = 0.5 * r.along * r.along * r.inverse_radius;
   float t = start;
   if (r.up < 0.0) t = max(t, ceiling / r.up);  // over the highest post until here
+#if near_ground == 1
   if (near.x != 0) {
     float value = near_hit(q, bend, ceiling, t);
     if (value != sky) return value;
   }
+#endif
   Window w = window_here();
   for (int steps = 0; steps < step_limit; ++steps) {
     float s = t * tolerance.z;

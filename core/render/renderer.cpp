@@ -29,6 +29,8 @@ constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
                                                                      "#define level_count 5\n",
                                                                      "#define level_count 6\n"};
 static_assert(max_levels == 6);
+constexpr std::array<std::string_view, 2> near_defines{"#define near_ground 0\n",
+                                                       "#define near_ground 1\n"};
 constexpr std::array<std::string_view, shading_count> shade_defines{
     "#define shading 0\n", "#define shading 1\n", "#define shading 2\n", "#define shading 3\n"};
 
@@ -115,7 +117,8 @@ std::string_view Renderer::march_defines() const {
 
 void Renderer::exchange_marches(Program& sweep, Program& ray_cast) {
   std::swap(sweep_, sweep);
-  std::swap(ray_cast_, ray_cast);
+  std::swap(ray_casts_[1], ray_cast);
+  exchanged_ = !exchanged_;
 }
 
 Status Renderer::make_programs(ShaderLog log) {
@@ -135,12 +138,18 @@ Status Renderer::make_programs(ShaderLog log) {
     std::string_view name, vertex, fragment;
   };
   for (const Drawn& entry :
-       {Drawn{&ray_cast_, "ray_cast", shader::ray_cast_vert, shader::ray_cast_frag},
-        Drawn{&present_, "present", shader::present_vert, shader::present_frag},
+       {Drawn{&present_, "present", shader::present_vert, shader::present_frag},
         Drawn{&sky_, "sky", shader::sky_vert, shader::sky_frag},
         Drawn{&words_, "words", shader::words_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
+    if (!made) return made;
+  }
+  for (std::size_t k = 0; k < near_defines.size(); ++k) {
+    const JoinedDefines both(defines, near_defines[k]);
+    const Status made = take(make_draw_program("ray_cast", shader::ray_cast_vert,
+                                               shader::ray_cast_frag, log, both.view()),
+                             ray_casts_[k]);
     if (!made) return made;
   }
   for (std::size_t k = 0; k < shading_count; ++k) {
@@ -292,7 +301,7 @@ void Renderer::end_range() {
 void Renderer::draw_terrain(const FrameBlocks& blocks, std::span<const PlaneRecord> planes,
                             std::span<const float> slopes, const RayTiles& tiles) {
   begin_terrain(blocks, planes, slopes, tiles);
-  draw_tiles(range_target_, ray_cast_, all_tiles());
+  draw_tiles(range_target_, ray_cast(), all_tiles());
   end_range();
 }
 
@@ -300,6 +309,7 @@ void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRec
                              std::span<const float> slopes, const RayTiles& tiles) {
   constexpr GLenum ssbo = GL_SHADER_STORAGE_BUFFER;
   tiles_shown_ = tiles;
+  near_ground_ = blocks.frame.near.x != 0;
   tiles_.write(0, tiles.tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
@@ -319,7 +329,7 @@ void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRec
 
 void Renderer::cast_tiles(int first, int count) const {
   RL_ASSERT(first >= 0 && count >= 0 && first + count <= all_tiles().count);
-  draw_tiles(range_target_, ray_cast_, {first, count});
+  draw_tiles(range_target_, ray_cast(), {first, count});
 }
 
 void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {

@@ -122,6 +122,9 @@ class Renderer {
   [[nodiscard]] const TileList& tile_list() const {
     return tiles_shown_.tiles.empty() ? single_tiles_ : tiles_;
   }
+  [[nodiscard]] const Program& ray_cast() const {
+    return ray_casts_[near_ground_ || exchanged_ ? 1 : 0];
+  }
   [[nodiscard]] TileRange all_tiles() const;
   [[nodiscard]] TileRange ground_tiles() const;  ///< all but those of plain sky
   void write_frame_block(const FrameBlocks& blocks);
@@ -132,13 +135,16 @@ class Renderer {
   static constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
 
   RenderSizes sizes_;
-  Program sweep_, ray_cast_, count_, present_, sky_, words_;
+  Program sweep_, count_, present_, sky_, words_;
+  std::array<Program, 2> ray_casts_;  ///< without and with ground round a low eye
   std::array<Program, shading_count> shade_;
   Texture posts_, highest_, nodes_, slopes_, range_, shaded_, colour_, text_;
   Buffer frame_block_, grid_block_, style_block_, planes_, counters_;
   Sampler blended_, blocky_;  ///< how colours are taken from rays
   TileList tiles_, single_tiles_, word_tiles_;
-  RayTiles tiles_shown_;  ///< the caller's; empty: single rays
+  RayTiles tiles_shown_;      ///< the caller's; empty: single rays
+  bool near_ground_ = false;  ///< of the frame begun last
+  bool exchanged_ = false;    ///< the second ray cast is the caller's, for every frame
   int single_count_ = 0, word_count_ = 0;
   Framebuffer range_target_, shaded_target_, colour_target_;
   GpuTimer timer_;
