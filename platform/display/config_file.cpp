@@ -152,7 +152,9 @@ const ConfigKey* key_of(std::string_view section, std::string_view name) {
 
 void take_section(std::string_view section, const toml::table& table, Filling& filling,
                   Problems& problems) {
-  for (const auto& [name, node] : table) {
+  for (const auto& entry : table) {
+    const toml::key& name = entry.first;
+    const toml::node& node = entry.second;  // clang before 16 captures no structured binding
     const std::string full = std::string(section) + "." + std::string(name.str());
     const ConfigKey* key = key_of(section, name.str());
     if (key == nullptr) {
