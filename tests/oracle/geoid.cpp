@@ -46,7 +46,7 @@ PgmHeader pgm_header(const std::string& file, const std::string& bytes) {
   }
   in >> header.columns >> header.rows >> header.largest;
   if (!in || std::isnan(header.offset_m) || std::isnan(header.scale_m) || header.columns < 2 ||
-      header.rows < 3 || header.largest != 65535) {
+      header.rows < 2 || header.largest != 65535) {
     throw InputError(file, "geoid PGM header is corrupt");
   }
   header.data_at = static_cast<std::size_t>(in.tellg()) + 1;
