@@ -35,10 +35,10 @@ inline constexpr int budget_readings = 16;  ///< of the clock in one frame, at m
 inline constexpr std::int64_t nominal_frame_ns = 1'000'000;
 inline constexpr std::int64_t nominal_bus_frame_ns = 200;
 inline constexpr std::int64_t nominal_block_ns = 40'000;
-inline constexpr std::int64_t nominal_plan_ns = 2'000'000;
-inline constexpr std::int64_t nominal_node_ns = 10;
-inline constexpr std::int64_t nominal_ray_ns = 130;
-inline constexpr std::int64_t nominal_shaded_ns = 25;  ///< a ray, with everything
-inline constexpr std::int64_t nominal_pixel_ns = 6;
+inline constexpr std::int64_t nominal_plan_ns = 1'500'000;
+inline constexpr std::int64_t nominal_node_ns = 8;
+inline constexpr std::int64_t nominal_ray_ns = 70;
+inline constexpr std::int64_t nominal_shaded_ns = 20;  ///< a ray, with everything
+inline constexpr std::int64_t nominal_pixel_ns = 7;    ///< with what its tile costs
 
 }  // namespace ridgeline::limits

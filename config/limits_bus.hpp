@@ -195,6 +195,18 @@ inline constexpr std::int64_t radio_disagree_ns = 2 * second_ns;
 /// Radio altimeters measure up to 2500 ft.
 inline constexpr double radio_height_limit_m = 762.0;
 
+/// The air/ground switch against speed and height. Flight: faster than any taxiing (50 kt), and
+/// higher over the drawn ground than terrain (30 m), receiver (25 m) and antenna over the wheels
+/// explain. No climb is there sooner than 5 s after the wheels are off; 2 s, as the radio height.
+inline constexpr double flight_speed_mps = 25.0;
+inline constexpr double flight_height_m = 70.0;
+inline constexpr std::int64_t flight_ns = 2 * second_ns;
+/// Standing: slower than receivers err, no higher than terrain and receiver explain. Half a minute:
+/// no headwind holds an aeroplane that low over one place for so long.
+inline constexpr double standing_speed_mps = 2.0;
+inline constexpr double standing_height_m = 55.0;
+inline constexpr std::int64_t standing_ns = 30 * second_ns;
+
 /// Longest time the bus thread may be held up without losing a frame: a disk that hangs, a page
 /// that comes late. Of a bus that is full of the shortest frames (47 bits) at 1 Mbit/s.
 inline constexpr std::int64_t can_stall_ns = 250 * ms_ns;

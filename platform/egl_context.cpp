@@ -207,6 +207,13 @@ TimerFunctions EglContext::timer_functions() const {
   TimerFunctions functions;
   const auto* list = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
   if (!has_word(list, "GL_EXT_disjoint_timer_query")) return functions;
+  // A driver may have the extension and no clock behind it.
+  constexpr GLenum timestamp_ext = 0x8E28, query_counter_bits_ext = 0x8864;
+  const auto query =
+      reinterpret_cast<void (*)(GLenum, GLenum, GLint*)>(eglGetProcAddress("glGetQueryivEXT"));
+  GLint bits = 0;
+  if (query != nullptr) query(timestamp_ext, query_counter_bits_ext, &bits);
+  if (bits == 0) return functions;
   functions.gen_queries =
       reinterpret_cast<decltype(functions.gen_queries)>(eglGetProcAddress("glGenQueriesEXT"));
   functions.query_counter =

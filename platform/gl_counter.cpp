@@ -22,6 +22,7 @@ void __real_glGenTextures(GLsizei n, GLuint* names);
 void __real_glGenBuffers(GLsizei n, GLuint* names);
 void __real_glGenFramebuffers(GLsizei n, GLuint* names);
 void __real_glGenVertexArrays(GLsizei n, GLuint* names);
+void __real_glGenSamplers(GLsizei n, GLuint* names);
 GLuint __real_glCreateShader(GLenum type);
 GLuint __real_glCreateProgram();
 void __real_glBufferData(GLenum target, GLsizeiptr size, const void* data, GLenum usage);
@@ -44,6 +45,10 @@ void __wrap_glGenFramebuffers(GLsizei n, GLuint* names) {
 void __wrap_glGenVertexArrays(GLsizei n, GLuint* names) {
   count();
   __real_glGenVertexArrays(n, names);
+}
+void __wrap_glGenSamplers(GLsizei n, GLuint* names) {
+  count();
+  __real_glGenSamplers(n, names);
 }
 GLuint __wrap_glCreateShader(GLenum type) {
   count();

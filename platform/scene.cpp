@@ -88,13 +88,16 @@ void Scene::warm_up() {
   nothing.frame.window.z = 1;
   nothing.frame.level_size = {64.0f, 64.0f, 1.0f / 65.0f, 1.0f / 65.0f};
   renderer_->upload_block(TerrainBlock{}, BlockSlot{});
+  for (RayTile& tile : std::span(ray_tiles_).first(2)) tile.size = RayTile::pair(1, 1);
   renderer_->draw_terrain(nothing, std::span(planes_).first(1), std::span(slopes_).first(1),
                           {std::span(ray_tiles_).first(2), 1});  // ground and plain sky
   std::fill(text_.begin(), text_.end(), static_cast<std::uint8_t>(shader::text_ink));
   renderer_->upload_text(text_);
   for (const Shading shading :
        {Shading::plain, Shading::facets, Shading::no_lines, Shading::full}) {
-    renderer_->shade(nothing, shader::StyleBlock{}, shading);
+    for (const float kept : {0.5F, 1.0F}) {  // by night as well
+      renderer_->shade(nothing, shader::StyleBlock{}, shading, Dimming{kept, kept});
+    }
   }
   static_cast<void>(renderer_->read_counters());
 }

@@ -51,6 +51,9 @@ class Scene {
   FrameReport draw(const FrameSettings& settings, const FrameInput& input) {
     return draw_frame(settings, input, *terrain_, worker_->refused_count(), tables(), *renderer_);
   }
+  /// Draws with a table of a method's own of what blocks of pixels bear, which outlives its use;
+  /// null: with the scene's. One table for methods in turn would be filled anew for each.
+  void use_bearing(BlockBearing* bearing) { other_bearing_ = bearing; }
   /// Waits for the frame just drawn.
   FrameCounts finish(FrameReport& report) { return finish_frame(*renderer_, report, tables()); }
   /// Waits for the terrain round the eye; for boot, and for single pictures.
@@ -83,7 +86,8 @@ class Scene {
     return {planes_,
             slopes_,
             text_,
-            {ray_tiles_, tile_steepness_, tile_shapes_, tile_looks_, block_bearing_.get()}};
+            {ray_tiles_, tile_steepness_, tile_shapes_, tile_looks_,
+             other_bearing_ != nullptr ? other_bearing_ : block_bearing_.get()}};
   }
   void size_window(const GeodeticPosition& first);
   void warm_up();
@@ -110,6 +114,7 @@ class Scene {
   std::vector<std::uint8_t> tile_shapes_;
   std::vector<TileLook> tile_looks_;
   std::unique_ptr<BlockBearing> block_bearing_;
+  BlockBearing* other_bearing_ = nullptr;
   std::vector<std::uint32_t> range_words_;
 };
 

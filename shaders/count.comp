@@ -12,12 +12,20 @@ void main() {
   if (index >= window.w) return;
   ivec4 tile = record_of(index);
   ivec2 rays = tile_rays(tile);
+  ivec2 first = pair_of(tile.y);
+  vec2 texel = ray_target.xy;
   uint followed = 0u, failed = 0u;
-  for (int y = 0; y < rays.y; ++y) {
-    for (int x = 0; x < rays.x; ++x) {
-      float value = uintBitsToFloat(texelFetch(range_texture, pair_of(tile.y) + ivec2(x, y), 0).r);
-      followed += value == proven_sky ? 0u : 1u;
-      failed += value == unresolved ? 1u : 0u;
+  for (int y = 0; y < rays.y; y += 2) {
+    for (int x = 0; x < rays.x; x += 2) {
+      // Four rays at once: x north-west, y north-east, z south-east, w south-west of their corner.
+      uvec4 bits = textureGather(range_texture, vec2(first + ivec2(x, y) + 1) * texel);
+      bvec4 beside = bvec4(false, x + 1 == rays.x, x + 1 == rays.x, false);
+      bvec4 above = bvec4(y + 1 == rays.y, y + 1 == rays.y, false, false);
+      vec4 value = mix(mix(uintBitsToFloat(bits), vec4(proven_sky), beside), vec4(proven_sky), above);
+      uvec4 met = uvec4(notEqual(value, vec4(proven_sky)));
+      uvec4 unmet = uvec4(equal(value, vec4(unresolved)));
+      followed += met.x + met.y + met.z + met.w;
+      failed += unmet.x + unmet.y + unmet.z + unmet.w;
     }
   }
   atomicAdd(counters[0], followed);

@@ -1,6 +1,32 @@
 # Joins version line, shared block file, libraries and one pass into a C++ string.
 # and has glslang check it: an error is a build error.
-# cmake -DOUTPUT=... -DNAME=... -DSTAGE=comp -DVALIDATOR=... -DPARTS="a;b;c" -P embed.cmake
+# cmake -DOUTPUT=... -DNAME=... -DSTAGE=comp -DVALIDATOR=... -DPARTS="a;b;c" [-DSENT="a;b"] -P embed.cmake
+
+# Members of uniform blocks that the vertex stage sends on to the fragment stage: both know them by
+# their own name, and the vertex stage has a function that sends them.
+function(send_members body_variable)
+  set(body "${${body_variable}}")
+  set(way in)
+  if(STAGE STREQUAL "vert")
+    set(way out)
+  endif()
+  set(declared "")
+  set(assigned "")
+  foreach(name IN LISTS SENT)
+    if(NOT body MATCHES "  (i?vec4) ${name}(\\[[0-9]\\])?;")
+      message(FATAL_ERROR "${NAME}: no block has a member ${name}")
+    endif()
+    string(APPEND declared "flat ${way} ${CMAKE_MATCH_1} ${name}${CMAKE_MATCH_2};\n")
+    string(APPEND assigned "  ${name} = uniform_${name};\n")
+    string(REPLACE "${CMAKE_MATCH_0}" "  ${CMAKE_MATCH_1} uniform_${name}${CMAKE_MATCH_2};" body "${body}")
+  endforeach()
+  string(APPEND body "${declared}")
+  if(STAGE STREQUAL "vert")
+    string(APPEND body "void send_members() {\n${assigned}}\n")
+  endif()
+  set(${body_variable} "${body}" PARENT_SCOPE)
+endfunction()
+
 set(text "#version 310 es\n#ifndef level_count\n#define level_count window.z\n#endif\nprecision highp float;\nprecision highp int;\n")
 set(number 0)
 foreach(part IN LISTS PARTS)
@@ -9,6 +35,9 @@ foreach(part IN LISTS PARTS)
   if(file_name STREQUAL "frame_block.h")
     # Constants become macros: ES GLSL takes only literal bindings.
     string(REGEX REPLACE "RL_CONST\\(([a-z_]+), ([0-9]+)\\);" "#define \\1 \\2" body "${body}")
+    if(NOT STAGE STREQUAL "comp")
+      send_members(body)
+    endif()
   endif()
   string(APPEND text "#line 1 ${number}\n${body}\n")
   math(EXPR number "${number} + 1")

@@ -27,6 +27,7 @@ RL_CONST(range_unit, 4);
 RL_CONST(text_unit, 5);
 RL_CONST(shaded_unit, 6);
 RL_CONST(tiles_unit, 7);
+RL_CONST(slopes_unit, 8);
 
 // Bytes of the text layer; 0 is no text.
 RL_CONST(text_plate, 60);
@@ -39,8 +40,8 @@ RL_CONST(target_image, 0);
 
 // Shader storage buffers.
 RL_CONST(planes_buffer, 0);
-RL_CONST(slopes_buffer, 1);
 RL_CONST(counters_buffer, 2);
+RL_CONST(steps_buffer, 3);  // of programs that count their steps, which never fly
 
 RL_CONST(tile_list_width, 256);  // texels of a row of tile records
 
@@ -61,11 +62,12 @@ RL_BLOCK(FrameBlock, 0) {
   vec4 level_reach[6];  // x: ground distance up to which its nodes cover a wedge
   vec4 latitude[3];   // ground map in posts, northwards: 01 02 03 04 | 05 20 21 22 | 23 40 41 -
   vec4 longitude[3];  // eastwards: 10 11 12 13 | 14 30 31 32 | 50 - - -
-  vec4 ray_target;    // xy: one over the size of the target that holds the rays; zw: unused
+  vec4 ray_target;    // one over the size of, xy: the target that holds the rays; zw: the grid's texture
   vec4 near_cells[9]; // cells round a low eye, about it: height over the eye, per column, per row, per both
   vec4 near_edges;    // of the eye's cell, in posts from the eye: west, east, south, north
   ivec4 near;         // x: 1 when they are used; y: bit k set where cell k is unknown; zw: unused
-  vec4 turn;          // xy: cosine and sine of the angle from the eye's east to the lattice's
+  vec4 turn;          // xy: cosine and sine of the angle from the eye's east to the lattice's;
+                      // zw: one over the size of the texture that holds the nodes
 };
 
 // The projected grid of one frame.

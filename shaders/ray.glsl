@@ -40,6 +40,7 @@ RayPoint ray_point(Ray r, float t) {
 // The bilinear cell seen along a ray: ray minus surface = x + y t + z t t from the point on.
 // height, climb, bend: of the ray there; its height is height + climb t + bend t t.
 vec3 gap_along(Cell c, vec2 f, vec2 rate, float height, float climb, float bend) {
+  count_cell
   float h0 = c.h00 + c.dx * f.x + c.dy * f.y + c.dxy * f.x * f.y;
   float h1 = c.dx * rate.x + c.dy * rate.y + c.dxy * (f.x * rate.y + f.y * rate.x);
   float h2 = c.dxy * rate.x * rate.y;

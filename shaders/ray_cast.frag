@@ -25,7 +25,7 @@ float proven_empty(vec3 direction) {
   if (azimuth.w > 0.5) plane = plane >= grid.x ? plane - grid.x : plane;
   plane = clamp(plane, 0, grid.x - 1);
   int row = clamp(int(floor(b - 0.01)), 0, grid.y - 1);  // never a row above the pixel
-  return texelFetch(nodes_texture, ivec2(plane, row), 0).r;
+  return textureLod(nodes_texture, (vec2(plane, row) + 0.5) * ray_target.zw, 0.0).r;
 }
 
 // Distance along the ray at which it has passed the ground distance g.
@@ -76,9 +76,11 @@ Course course_of(Ray r) {
 float first_zero(vec3 gap) {
   float disc = gap.y * gap.y - 4.0 * gap.z * gap.x;
   float root = sqrt(max(disc, 0.0));
-  if (gap.y > 0.0) return gap.z < 0.0 ? (gap.y + root) / (-2.0 * gap.z) : sky;
+  bool climbs = gap.y > 0.0;
   float down = root - gap.y;
-  return disc < 0.0 || down <= 0.0 ? sky : 2.0 * gap.x / down;
+  bool none = climbs ? gap.z >= 0.0 : disc < 0.0 || down <= 0.0;
+  float zero = (climbs ? gap.y + root : 2.0 * gap.x) / (climbs ? -2.0 * gap.z : down);
+  return none ? sky : zero;
 }
 
 // The same from a point that may stand below the surface already: there it hits at once.
@@ -129,68 +131,51 @@ float first_hit(Ray r, float start, int size) {
   float range = ray_origin.w;
   float ceiling = over_eye(heights.x) + 1.0;
   float bend = 0.5 * r.along * r.along * r.inverse_radius;
-  int top_size = int(heights.z);
   float t = start;
   if (r.up < 0.0) t = max(t, ceiling / r.up);  // over the highest post until here
   if (near.x != 0) {
     float value = near_hit(q, bend, ceiling, t);
     if (value != sky) return value;
   }
-  ivec2 parent = ivec2(-1000000);
+  Window w = window_here();
   for (int steps = 0; steps < step_limit; ++steps) {
-    if (t > range) return sky;
     float s = t * tolerance.z;
     float height = s * (q.h.x + s * (q.h.y + s * (q.h.z + s * q.h.w)));
     float climb = tolerance.z * (q.h.x + s * (2.0 * q.h.y + s * (3.0 * q.h.z)));
-    if (height > ceiling && climb >= 0.0) return sky;
+    if (t > range || (height > ceiling && climb >= 0.0)) return sky;
     vec2 at = eye.xy + s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
     vec2 whole = cell_ahead(at, rate);
     ivec2 cell = ivec2(whole);
     int level = level_of(cell, cell + 1, 0);
-    // Up a size when the step has left the parent node, so that long clear ways take few steps.
-    ivec2 up = (window.xy + cell) >> (size + 1);
-    if (parent.x > -1000000 && up != parent && size < top_size) size += 1;
-    parent = ivec2(-1000000);
-    size = clamp(size, level, level + node_levels);
-    float exit = min(exit_distance(cell, size, at, rate), heights.w);
+    size = clamp(size, level + 1, level + node_levels);
     float nudge = 3.0e-5 + 4.0e-7 * t;  // past the edge, so that the next step is over it
-    float leave = exit + nudge;
-    if (size > level) {
-      ivec2 low = level_low(cell, size);
-      int holder = level_of(low, low + (1 << size), level);
-      if (size == holder) {  // two borders in one node: only while the window fills
-        size -= 1;
-        continue;
-      }
-      // The height of a ray is convex in t: it stays above its tangent.
-      float lowest = height + min(climb, 0.0) * leave;
-      float k = node_highest(cell, size, holder);
-      if (lowest > k + 1.0e-6 * (abs(k) + abs(height)) + 1.0e-5) {
-        parent = (window.xy + cell) >> (size + 1);
-        t += leave;
-      } else {
-        size -= 1;
-      }
-      continue;
-    }
-    Cell c = cell_at(cell, level);
+
+    // Over the node: the height of a ray is convex in t and stays above its tangent.
+    ivec2 low = level_low(w, cell, size);
+    int holder = level_of(low, low + (1 << size), level);
+    float leave_node = min(exit_distance(w, cell, size, at, rate), heights.w) + nudge;
+    float lowest = height + min(climb, 0.0) * leave_node;
+    float k = node_highest(w, cell, size, holder);
+    bool whole_node = level_count == 1 || size > holder;  // else two borders in one, while it fills
+    bool clear = whole_node && lowest > k + 1.0e-6 * (abs(k) + abs(height)) + 1.0e-5;
+
+    // Else through the cell, to which it costs nothing to look at once.
+    Cell c = cell_at(w, cell, level);
     float unit = 1.0 / float(1 << level);
-    vec2 inside = (at - vec2(level_low(cell, level))) * unit;
+    vec2 inside = (at - vec2(level_low(w, cell, level))) * unit;
     vec3 gap = gap_along(c, inside, rate * unit, height, climb, bend);
+    float exit = min(exit_distance(w, cell, level, at, rate), heights.w);
     // The track counts as straight only as far as it bends by less than 1e-6 of the distance.
     float straight = 0.5 * heights.y + sqrt(heights.y * t);
     float stretch = min(exit, straight);
     float hit = meeting(gap);
-    if (hit <= stretch) {  // a hit within the nudge is met where the next cell begins
+    if (!clear && hit <= stretch) {  // a hit within the nudge is met where the next cell begins
       t += hit;
       return shown(t, c.unknown);
     }
-    // A larger node will hardly be clear where the ray leaves the cell close to its ground.
-    float left = gap.x + stretch * (gap.y + stretch * gap.z);
-    bool high = left > 3.0 * (abs(c.dx) + abs(c.dy));
-    parent = high ? (window.xy + cell) >> (size + 1) : parent;
-    t += straight < exit ? straight : leave;
+    t += clear ? leave_node : straight < exit ? straight : exit + nudge;
+    size += clear ? 1 : -1;
   }
   return unresolved;
 }

@@ -46,20 +46,21 @@ vec2 blended(vec2 rise, vec2 near, vec2 outer, float side, float share) {
 
 // A rise belongs to the middle of its edge and is bilinear from there to the next ones.
 Relief relief_at(vec2 at) {
+  Window w = window_here();
   ivec2 cell = ivec2(floor(at));
   int level = level_of(cell, cell + 1, 0);
   float unit = 1.0 / float(1 << level);
-  vec2 f = (at - vec2(level_low(cell, level))) * unit;
-  ivec2 p = level_texel(cell, level);
-  vec4 here = four_posts(p, level);
+  vec2 f = (at - vec2(level_low(w, cell, level))) * unit;
+  ivec2 p = level_texel(w, cell, level);
+  vec4 here = four_posts(w, p, level);
   vec2 west = here.wx, east = here.zy, south = here.wz, north = here.xy;
 #if shading == 2
   vec2 x = east - west, y = north - south;
 #else
   bvec2 upper = greaterThan(f, vec2(0.5));
   ivec2 side = ivec2(upper) * 2 - 1;
-  vec4 beside = four_posts(p + ivec2(side.x, 0), level);
-  vec4 above = four_posts(p + ivec2(0, side.y), level);
+  vec4 beside = four_posts(w, p + ivec2(side.x, 0), level);
+  vec4 above = four_posts(w, p + ivec2(0, side.y), level);
   vec2 share = abs(f - 0.5);
   vec2 x = blended(east - west, upper.x ? east : west, upper.x ? beside.zy : beside.wx,
                    float(side.x), share.x);

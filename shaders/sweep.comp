@@ -7,16 +7,20 @@
 // on the plane holds for the whole wedge up to the next planes' middles, and for every slope above
 // the row's: a pixel may start its own ray there (docs/error_bound.md, section 3).
 layout(local_size_x = 32) in;
+layout(binding = slopes_unit) uniform highp sampler2D slopes_texture;
 layout(r32f, binding = target_image) writeonly uniform highp image2D nodes_image;
 
 // x sin, y cos of the azimuth, z 1/R; then first and last row.
 struct Plane { vec4 direction; ivec4 rows; };
 layout(std430, binding = planes_buffer) readonly buffer Planes { Plane plane_list[]; };
-layout(std430, binding = slopes_buffer) readonly buffer Slopes { float slope_list[]; };
 layout(std430, binding = counters_buffer) buffer Counters { uint counters[]; };
 
 void store(int row, int plane, float value) {
   imageStore(nodes_image, ivec2(plane, row), vec4(value));
+}
+
+float slope_of(int row) {
+  return textureLod(slopes_texture, vec2((float(row) + 0.5) * ray_target.w, 0.5), 0.0).r;
 }
 
 // As level_of, two posts inside the drawable part: the whole wedge is drawn by that level or a finer
@@ -43,38 +47,46 @@ void main() {
   float inverse_radius = direction.z;
   float g_end = tolerance.x;  // the end of the range, or where wedges grow wider than the overlap
   int top_size = int(heights.z);
+  Window w = window_here();
+  float first_reach = level_reach[0].x;
+  float swell = abs(tolerance.y) + abs(tolerance.w);
+  // Beyond the end of the sweep the wedge is empty as well for rays that climb away from the sea
+  // level circle there and pass over the highest post of the window.
+  float far_drop = 0.5 * g_end * g_end * inverse_radius * (1.0 - 1.0e-4);
+  float far_high = over_eye(heights.x) + 1.0;
+  float far_rise = 1.0 + (far_high + earth.w) * inverse_radius;
 
   float g = 0.0;
   int size = top_size;
-  float slope = slope_list[row];
+  float slope = slope_of(row);
   int steps = 0;
   while (g < g_end && steps < step_limit) {
     ++steps;
     // Wedges widen: farther out only coarser levels have nodes whose overlap covers them.
     int level = 0;
     while (level < level_count - 1 && g >= level_reach[level].x) ++level;
-    float reach = level_reach[level].x;
+    float reach = level_count == 1 ? first_reach : level_reach[level].x;
     float u = g * tolerance.z;
     vec2 at = track_posts(track, u);
     vec2 rate = track_rate(track, u);
     ivec2 cell = ivec2(cell_ahead(at, rate));
     level = wedge_level_of(cell, cell + 1, level);
     size = clamp(size, level + 1, level + node_levels);
-    ivec2 low = level_low(cell, size);
+    ivec2 low = level_low(w, cell, size);
     int holder = wedge_level_of(low, low + (1 << size), level);
     if (size == holder) {  // two borders in one node: only while the window fills
       size -= 1;
       continue;
     }
-    float leave = min(exit_distance(cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
+    float leave = min(exit_distance(w, cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
     float g1 = g < reach ? min(g + leave, reach) : g + leave;
     float theta2 = g * g * inverse_radius * inverse_radius;
     float drop = 0.5 * g * g * inverse_radius * (1.0 - theta2 * (1.0 / 12.0)) * (1.0 - 3.0e-5);
     float near = g * (1.0 - theta2 * (1.0 / 6.0));
-    float k = node_highest(cell, size, holder);
+    float k = node_highest(w, cell, size, holder);
     float c = 1.0 + (k + earth.w) * inverse_radius;
     float slack = 1.0e-6 * abs(k) + 1.0e-6 * g1 + 1.0e-5 +
-                  (abs(tolerance.y) + abs(tolerance.w)) * u * u * u * 1.2;  // swell
+                  swell * u * u * u * 1.2;
     // k + slack over the row's ray: terrain of this node may reach it.
     float over = k + slack - c * (drop + slope * (slope < 0.0 ? g1 : near));
     if (over < 0.0) {
@@ -87,21 +99,17 @@ void main() {
         store(row, plane, g);
         ++row;
         if (row > last_row) return;
-        slope = slope_list[row];
+        slope = slope_of(row);
         over = k + slack - c * (drop + slope * (slope < 0.0 ? g1 : near));
       }
     }
   }
   if (steps >= step_limit) atomicAdd(counters[1], 1u);
-  // Past the last node the wedge is empty up to the end of the sweep. Beyond it as well for rays that
-  // climb away from the sea level circle there and pass over the highest post of the window.
-  float far_drop = 0.5 * g_end * g_end * inverse_radius * (1.0 - 1.0e-4);
-  float far_high = over_eye(heights.x) + 1.0;
+  // Past the last node the wedge is empty up to the end of the sweep.
   for (; row <= last_row; ++row) {
-    slope = slope_list[row];
+    slope = slope_of(row);
     bool climbs = slope + g_end * inverse_radius > 0.0;
-    float c = 1.0 + (far_high + earth.w) * inverse_radius;
-    bool over = far_high < c * (far_drop + slope * (slope < 0.0 ? g_end : g_end * (1.0 - 1.0e-4)));
+    bool over = far_high < far_rise * (far_drop + slope * (slope < 0.0 ? g_end : g_end * (1.0 - 1.0e-4)));
     bool clear = g_end >= ray_origin.w || (climbs && over);
     store(row, plane, clear ? sky : min(g, g_end));
   }

@@ -3,6 +3,17 @@
 layout(binding = posts_unit) uniform highp sampler2DArray posts_texture;
 layout(binding = highest_unit) uniform highp sampler2DArray highest_texture;
 
+// Variants of the marches that the benchmark compiles count their steps (sim/methods/step_counter.hpp);
+// in what flies these names are nothing. count_steps: first of the program's two counters.
+#ifdef count_steps
+layout(std430, binding = steps_buffer) buffer Steps { uint steps_taken[]; };
+#define count_node atomicAdd(steps_taken[count_steps], 1u);
+#define count_cell atomicAdd(steps_taken[count_steps + 1], 1u);
+#else
+#define count_node
+#define count_cell
+#endif
+
 const float void_threshold = -50000.0;
 const float void_offset = 100000.0;
 const float sky = 1.0e30;
@@ -72,9 +83,22 @@ int level_of(ivec2 low, ivec2 high, int from) {
   return level;
 }
 
+// What a march asks of the window at every step. Held by the caller: inside a loop a software GPU
+// would fetch a uniform anew at every turn.
+struct Window {
+  ivec2 eye;        // low bits of the eye's post
+  ivec2 place;      // where level 0 keeps a post, from those bits on
+  ivec2 posts;      // columns and rows of a level
+  vec2 node_texel;  // one over the size of the nodes' texture
+};
+
+Window window_here() {
+  return Window(window.xy, level_eye[0].xy - window.xy, ivec2(level_size.xy), turn.zw);
+}
+
 // South-west lattice post of the cell of `level` that holds `cell`, relative to the eye's.
-ivec2 level_low(ivec2 cell, int level) {
-  return (((window.xy + cell) >> level) << level) - window.xy;
+ivec2 level_low(Window w, ivec2 cell, int level) {
+  return (((w.eye + cell) >> level) << level) - w.eye;
 }
 
 // A place of a level's toroidal memory, which may lie one turn outside.
@@ -83,16 +107,21 @@ ivec2 wrapped(ivec2 texel, ivec2 count) {
   return texel - ivec2(greaterThanEqual(texel, count)) * count;
 }
 
+// Where a level keeps the post with the low bits 0; a multiple of the posts of a block.
+ivec2 level_place(Window w, int level) {
+  return level_count == 1 ? w.place : level_eye[level].xy - (w.eye >> level);
+}
+
 // Where a level keeps the south-west post of that cell; one turn round at most.
-ivec2 level_texel(ivec2 cell, int level) {
-  return level_eye[level].xy + ((window.xy + cell) >> level) - (window.xy >> level);
+ivec2 level_texel(Window w, ivec2 cell, int level) {
+  return level_place(w, level) + ((w.eye + cell) >> level);
 }
 
 // The four posts round the point where they meet, half a texel from any other choice. x north-west,
 // y north-east, z south-east, w south-west. Behind its last column and row the texture has the first
 // once more, so that it need not repeat.
-vec4 four_posts(ivec2 texel, int level) {
-  vec2 corner = vec2(wrapped(texel, ivec2(level_size.xy))) + 1.0;
+vec4 four_posts(Window w, ivec2 texel, int level) {
+  vec2 corner = vec2(wrapped(texel, w.posts)) + 1.0;
   return textureGather(posts_texture, vec3(corner * level_size.zw, float(level)));
 }
 
@@ -102,8 +131,8 @@ struct Cell {
   bool unknown;  // then flat: the floor up to which it is drawn as unknown
 };
 
-Cell cell_at(ivec2 cell, int level) {
-  vec4 corners = four_posts(level_texel(cell, level), level);
+Cell cell_at(Window w, ivec2 cell, int level) {
+  vec4 corners = four_posts(w, level_texel(w, cell, level), level);
   float a = corners.w, b = corners.z, c = corners.x, d = corners.y;
   Cell r;
   float low = min(min(a, b), min(c, d));
@@ -136,13 +165,13 @@ ivec2 pyramid_corner(ivec2 posts, int level) {
 
 // Highest height over the eye in the node of 2^size cells that holds `cell`, by a level of the
 // window (0 < size - level <= node_levels); the node's overlap included.
-float node_highest(ivec2 cell, int size, int level) {
+float node_highest(Window w, ivec2 cell, int size, int level) {
+  count_node
   int up = size - level;
-  ivec2 posts = ivec2(level_size.xy);
-  ivec2 count = posts >> up;
-  ivec2 node = (level_eye[level].xy >> up) + ((window.xy + cell) >> size) - (window.xy >> size);
-  node = wrapped(node, count);
-  return over_eye(texelFetch(highest_texture, ivec3(node + pyramid_corner(posts, up), level), 0).r);
+  ivec2 node = (level_place(w, level) >> up) + ((w.eye + cell) >> size);
+  node = wrapped(node, w.posts >> up) + pyramid_corner(w.posts, up);
+  vec3 at = vec3((vec2(node) + 0.5) * w.node_texel, float(level));
+  return over_eye(textureLod(highest_texture, at, 0.0).r);
 }
 
 // The cell a point is in, or about to enter: on an edge (within rounding) the way decides. A point
@@ -156,9 +185,8 @@ vec2 cell_ahead(vec2 at, vec2 rate) {
 const int step_limit = 30000;
 
 // Distance along the track (in the unit of 1/rate) until the point leaves the node.
-float exit_distance(ivec2 cell, int level, vec2 at, vec2 rate) {
-  ivec2 absolute = ((window.xy + cell) >> level) << level;
-  vec2 low = vec2(absolute - window.xy);
+float exit_distance(Window w, ivec2 cell, int level, vec2 at, vec2 rate) {
+  vec2 low = vec2(level_low(w, cell, level));
   vec2 edge = low + vec2(greaterThan(rate, vec2(0.0))) * float(1 << level);
   vec2 safe_rate = mix(rate, vec2(1.0e-20), lessThan(abs(rate), vec2(1.0e-20)));
   vec2 steps = (edge - at) / safe_rate;

@@ -1,8 +1,11 @@
-// Four vertices a tile: where its rays stand. Row 0 of the target is the top.
+// A square of the rays of a tile, as a point. Row 0 of the target is the top.
 flat out highp ivec4 tile;
 
 void main() {
-  tile = record_of(gl_VertexID >> 2);
-  ivec2 corner = ivec2(gl_VertexID & 1, gl_VertexID >> 1 & 1) * tile_rays(tile);
-  gl_Position = vec4(2.0 * vec2(pair_of(tile.y) + corner) * ray_target.xy - 1.0, 0.0, 1.0);
+  send_members();
+  tile = record_of(int(square.x));
+  vec3 part = place_of(square.y);
+  vec2 middle = vec2(pair_of(tile.y)) + part.xy + 0.5 * part.z;
+  gl_Position = vec4(2.0 * middle * ray_target.xy - 1.0, 0.0, 1.0);
+  gl_PointSize = part.z;
 }

@@ -2,10 +2,11 @@
 
 namespace ridgeline {
 
-FrameInput frame_input(const OwnshipPose& pose, const GroundCheck& ground, std::int64_t time_ns) {
+FrameInput frame_input(const OwnshipPose& pose, const GroundCheck& ground,
+                       const AirGroundCheck& air_ground, std::int64_t time_ns) {
   FrameInput input;
   input.time_ns = time_ns;
-  input.availability = availability(pose, ground);
+  input.availability = availability(pose, ground, air_ground);
   if (has_value(pose.latitude_deg)) {
     input.eye = {pose.latitude_deg.value, pose.longitude_deg.value, pose.height_m.value};
   }

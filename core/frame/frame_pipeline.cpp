@@ -15,6 +15,8 @@ constexpr int grid_attempts = 8;     ///< to fit the grid into its capacity
 constexpr double coarser = 1.5;      ///< wider spacing for the next attempt
 constexpr double least_share = 2.0;  ///< of the height over the lowest ground: a cut range's least
 constexpr double most_of_distance = 8e-5;  ///< by which distances may be off where a ray looks down
+constexpr double wider_from_px = 2.0;      ///< bound from which the grid may be wider
+constexpr double widest = 2.0;             ///< and by how much at most
 constexpr double bound_growth = 1.1;       ///< step by which a bound that cannot be met is raised
 
 /// The display range of a frame, and what it can promise for it.
@@ -91,9 +93,13 @@ Result<Promise> honest_promise(const FrameSettings& settings, const FrameReport&
 }
 
 /// The grid as dense as wanted, or as its capacity allows: spacing costs time, never a pixel.
+/// Larger bounds have fewer rays for it to save steps for.
 PolarGrid grid_for(const FrameSettings& settings, const RenderSizes& sizes, const Camera& camera) {
   PolarGrid grid;
   GridSpacing spacing = settings.node_spacing;
+  const double wider = std::clamp(settings.error_px / wider_from_px, 1.0, widest);
+  spacing.planes_px *= wider;
+  spacing.rows_px *= wider;
   for (int attempt = 0; attempt < grid_attempts && !settings.cast_every_pixel; ++attempt) {
     grid = polar_grid(camera, spacing);
     if (grid.plane_count <= sizes.planes && grid.row_count <= sizes.rows) return grid;
@@ -140,9 +146,12 @@ void tell_plan(const FrameSettings& settings, const FramePlan& plan, FrameReport
   if (report.bound_px > settings.error_px) add_reason(report.availability, Reason::bound_exceeded);
 }
 
+/// As the monitor planned it, and without lines where the pilot wants none. The monitor goes on as
+/// if they were there: what it has learnt does not change with a switch.
 Shading shading_of(const FrameReport& report) {
-  const bool removed = report.availability.mode == Mode::removed;
-  return removed ? Shading::plain : static_cast<Shading>(report.detail);
+  if (report.availability.mode == Mode::removed) return Shading::plain;
+  const ShadeDetail most = report.display.declutter ? ShadeDetail::no_lines : ShadeDetail::full;
+  return static_cast<Shading>(std::max(report.detail, most));
 }
 
 FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
@@ -151,6 +160,7 @@ FrameReport draw_terrain(const FrameSettings& settings, const FrameInput& input,
   FrameReport report;
   report.time_ns = input.time_ns;
   report.availability = input.availability;
+  report.display = input.display;
   report.work.frames = 1;
   report.work.bus_frames = input.bus_frames;
 
@@ -242,7 +252,7 @@ FrameReport draw_frame(const FrameSettings& settings, const FrameInput& input,
   if (report.availability.mode == Mode::removed) renderer.use_single_rays();
   renderer.upload_text(text_layer(report, tables.text));
   renderer.shade(blocks, style_block(report, terrain.lattice(), settings.geoid, attitude_valid),
-                 shading_of(report));
+                 shading_of(report), dimming_of(report.display, attitude_valid));
   const auto pixels = static_cast<std::int64_t>(report.camera.width_px) * report.camera.height_px;
   if (report.availability.mode == Mode::removed) report.work.shaded = 0;
   report.work.pixels = pixels;
@@ -267,7 +277,8 @@ FrameCounts finish_frame(Renderer& renderer, FrameReport& report, const FrameTab
     renderer.use_single_rays();
     renderer.upload_text(text_layer(report, tables.text));
     renderer.shade(camera_blocks(report.camera),
-                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain);
+                   style_block(report, PostLattice{}, GeoidLookup{}, true), Shading::plain,
+                   dimming_of(report.display, true));
   }
   return counts;
 }

@@ -47,6 +47,7 @@ struct FrameInput {
   Availability availability;  ///< from the ownship data; removed means eye or attitude are no good
   bool attitude_valid = true;
   int bus_frames = 0;  ///< decoded for this frame
+  DisplayState display;
 };
 
 /// Tables the pipeline fills anew each frame; static storage, sizes from config/limits.hpp.

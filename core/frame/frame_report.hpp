@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/frame/display_state.hpp"
 #include "core/frame/terrain_keeper.hpp"
 #include "core/geo/camera.hpp"
 #include "core/geo/local_frame.hpp"
@@ -31,6 +32,7 @@ struct FrameReport {
   double over_ground_m = std::numeric_limits<double>::quiet_NaN();
   FrameWork work;                          ///< done for it
   ShadeDetail detail = ShadeDetail::full;  ///< as planned by the frame-budget monitor
+  DisplayState display;                    ///< as the pilot wants it
   bool finished_coarser = false;           ///< late: finished with a larger bound than planned
 };
 

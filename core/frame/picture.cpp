@@ -194,7 +194,8 @@ std::span<const std::uint8_t> text_layer(const FrameReport& report, std::span<st
   TextLayer text(used, width, height);
   const int scale = width >= 640 ? 2 : 1;
   const int step = (glyph_rows + 5) * scale, edge = 4 * scale;
-  constexpr std::string_view notice = "NOT CERTIFIED - SUPPLEMENTAL ONLY";
+  const std::string_view notice =
+      report.display.declutter ? "NOT CERTIFIED" : "NOT CERTIFIED - SUPPLEMENTAL ONLY";
   text.line(notice, edge, height - step, scale, shader::text_ink);
   const Availability& availability = report.availability;
   if (availability.mode == Mode::removed) {

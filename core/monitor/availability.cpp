@@ -107,9 +107,11 @@ Availability availability(const OwnshipPose& pose) {
   return result;
 }
 
-Availability availability(const OwnshipPose& pose, const GroundCheck& ground) {
+Availability availability(const OwnshipPose& pose, const GroundCheck& ground,
+                          const AirGroundCheck& air_ground) {
   Availability result = availability(pose);
   if (ground.contradiction.raised) add_reason(result, Reason::radio_height_disagrees);
+  if (air_ground.contradiction.raised) add_reason(result, Reason::air_ground_disagrees);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/fixed_vector.hpp"
+#include "core/monitor/air_ground_check.hpp"
 #include "core/monitor/ground_check.hpp"
 #include "core/state/ownship_pose.hpp"
 
@@ -53,8 +54,10 @@ void add_reason(Availability& availability, Reason reason);
 /// Cost:   O(1); no allocation.
 [[nodiscard]] Availability availability(const OwnshipPose& pose);
 
-/// The same, with what the radio height said of the ground that was drawn.
-[[nodiscard]] Availability availability(const OwnshipPose& pose, const GroundCheck& ground);
+/// The same, with what the radio height and the air/ground switch said of the ground that was
+/// drawn.
+[[nodiscard]] Availability availability(const OwnshipPose& pose, const GroundCheck& ground,
+                                        const AirGroundCheck& air_ground = {});
 
 /// The same for the pose at `now_ns`.
 [[nodiscard]] Availability availability(const OwnshipState& state, std::int64_t now_ns,

@@ -9,6 +9,9 @@ namespace ridgeline {
 enum class DiscreteInput : std::uint8_t { display_on, declutter, night, on_ground };
 inline constexpr std::size_t discrete_input_count = 4;
 
+/// What the air/ground switch says; unknown where there is none, or it can no longer be read.
+enum class AirGround : std::uint8_t { unknown, air, ground };
+
 /// Lines that the display drives. Initial levels are those of a display that shows nothing yet.
 enum class DiscreteOutput : std::uint8_t { heartbeat, svs_valid, svs_fail };
 inline constexpr std::size_t discrete_output_count = 3;

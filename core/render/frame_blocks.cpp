@@ -164,7 +164,8 @@ FrameBlocks frame_blocks(const LocalFrame& frame, const Camera& camera, const Gr
     b.longitude[k / 4][k % 4] = f(map.east_deg[k] / view.lattice.longitude_step_deg);
   }
   const Turn turn = turn_of(view.lattice.chart, frame.eye);
-  b.turn = {f(turn.cosine), f(turn.sine), 0.0f, 0.0f};
+  const glm::ivec2 nodes = nodes_texels(view.sizes.columns(), view.sizes.rows());
+  b.turn = {f(turn.cosine), f(turn.sine), f(1.0 / nodes.x), f(1.0 / nodes.y)};
   auto& g = blocks.grid;
   g.grid = {grid.plane_count, grid.row_count, grid.used ? 1 : 0, 0};
   if (!grid.used) return blocks;

@@ -52,6 +52,12 @@ struct FrameBlocks {
 ErrorBudget error_budget(const Camera& camera, const GroundMap& map, double level_px,
                          double steepest, const HeightRounding& rounding);
 
+/// Texels of the texture that holds the nodes of a level of so many columns and rows of posts: the
+/// smallest nodes at the left, the larger ones above each other to their right.
+constexpr glm::ivec2 nodes_texels(int columns, int rows) {
+  return {columns / 2 + columns / 4, rows / 2};
+}
+
 /// What no frame of this camera can promise less than, wherever it is: rounding alone.
 double smallest_error_px(const Camera& camera);
 

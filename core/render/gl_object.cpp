@@ -61,6 +61,10 @@ void delete_vertex_array(GLuint name) {
   glDeleteVertexArrays(1, &name);
 }
 
+void delete_sampler(GLuint name) {
+  glDeleteSamplers(1, &name);
+}
+
 std::size_t gl_bytes_allocated() {
   return bytes_allocated;
 }
@@ -85,6 +89,18 @@ Result<Texture> make_texture(GLenum internal_format, int width, int height, int 
                        static_cast<std::size_t>(std::max(height >> level, 1)) * texel_bytes;
   }
   return texture;
+}
+
+Sampler make_sampler(GLint filter) {
+  GLuint name = 0;
+  glGenSamplers(1, &name);
+  for (const GLenum which : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    glSamplerParameteri(name, which, filter);
+  }
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    glSamplerParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+  }
+  return Sampler(name);
 }
 
 Result<Texture> make_texture_array(GLenum internal_format, int width, int height, int layers,

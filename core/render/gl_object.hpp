@@ -40,12 +40,14 @@ void delete_buffer(GLuint name);
 void delete_framebuffer(GLuint name);
 void delete_program(GLuint name);
 void delete_vertex_array(GLuint name);
+void delete_sampler(GLuint name);
 
 using Texture = GlObject<delete_texture>;
 using Buffer = GlObject<delete_buffer>;
 using Framebuffer = GlObject<delete_framebuffer>;
 using Program = GlObject<delete_program>;
 using VertexArray = GlObject<delete_vertex_array>;
+using Sampler = GlObject<delete_sampler>;
 
 /// Bytes of GL storage asked for since boot; what the report calls gpu_bytes.
 [[nodiscard]] std::size_t gl_bytes_allocated();
@@ -59,6 +61,9 @@ Result<Texture> make_texture(GLenum internal_format, int width, int height, int 
 /// Errors: Fault::gl_out_of_memory.
 Result<Texture> make_texture_array(GLenum internal_format, int width, int height, int layers,
                                    std::size_t texel_bytes);
+
+/// How a texture is read, whatever it says itself: clamped, one level.
+Sampler make_sampler(GLint filter);
 
 /// Buffer of fixed size with undefined contents.
 /// Errors: Fault::gl_out_of_memory.

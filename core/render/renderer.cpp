@@ -1,25 +1,24 @@
 #include "core/render/renderer.hpp"
 
 #include <array>
-#include <bit>
-#include <limits>
+#include <utility>
 
 #include "core/render/text_bands.hpp"
 #include "shaders/count_comp.hpp"
 #include "shaders/present_frag.hpp"
+#include "shaders/present_vert.hpp"
 #include "shaders/ray_cast_frag.hpp"
+#include "shaders/ray_cast_vert.hpp"
 #include "shaders/shade_frag.hpp"
+#include "shaders/shade_vert.hpp"
 #include "shaders/sky_frag.hpp"
+#include "shaders/sky_vert.hpp"
 #include "shaders/sweep_comp.hpp"
-#include "shaders/tile_pixels_vert.hpp"
-#include "shaders/tile_rays_vert.hpp"
 #include "shaders/words_frag.hpp"
+#include "shaders/words_vert.hpp"
 
 namespace ridgeline {
 namespace {
-
-constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
-constexpr float sky = 1e30f;
 
 /// What the passes are compiled for: with the number of levels a constant, loops over them unroll.
 constexpr std::array<std::string_view, max_levels + 1> level_defines{"",
@@ -94,7 +93,10 @@ Result<Framebuffer> make_target(const Texture& texture) {
 Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& timer,
                                 ShaderLog log) {
   const int largest = limit(GL_MAX_TEXTURE_SIZE);
+  float point_px[2] = {};
+  glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, point_px);
   if (sizes.window.columns() > largest || sizes.window.rows() > largest || sizes.planes > largest ||
+      sizes.rows > largest || point_px[1] < static_cast<float>(largest_square_px) ||
       sizes.window.levels > limit(GL_MAX_ARRAY_TEXTURE_LAYERS) ||
       limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS) < 3 || limit(GL_MAX_COMPUTE_IMAGE_UNIFORMS) < 1) {
     return Fault::gl_limit_too_small;
@@ -107,8 +109,17 @@ Result<Renderer> Renderer::make(const RenderSizes& sizes, const TimerFunctions& 
   return renderer;
 }
 
+std::string_view Renderer::march_defines() const {
+  return level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+}
+
+void Renderer::exchange_marches(Program& sweep, Program& ray_cast) {
+  std::swap(sweep_, sweep);
+  std::swap(ray_cast_, ray_cast);
+}
+
 Status Renderer::make_programs(ShaderLog log) {
-  const std::string_view defines = level_defines[static_cast<std::size_t>(sizes_.window.levels)];
+  const std::string_view defines = march_defines();
   struct Entry {
     Program* program;
     std::string_view name, source;
@@ -124,19 +135,19 @@ Status Renderer::make_programs(ShaderLog log) {
     std::string_view name, vertex, fragment;
   };
   for (const Drawn& entry :
-       {Drawn{&ray_cast_, "ray_cast", shader::tile_rays_vert, shader::ray_cast_frag},
-        Drawn{&present_, "present", shader::tile_pixels_vert, shader::present_frag},
-        Drawn{&sky_, "sky", shader::tile_pixels_vert, shader::sky_frag},
-        Drawn{&words_, "words", shader::tile_pixels_vert, shader::words_frag}}) {
+       {Drawn{&ray_cast_, "ray_cast", shader::ray_cast_vert, shader::ray_cast_frag},
+        Drawn{&present_, "present", shader::present_vert, shader::present_frag},
+        Drawn{&sky_, "sky", shader::sky_vert, shader::sky_frag},
+        Drawn{&words_, "words", shader::words_vert, shader::words_frag}}) {
     const Status made = take(
         make_draw_program(entry.name, entry.vertex, entry.fragment, log, defines), *entry.program);
     if (!made) return made;
   }
   for (std::size_t k = 0; k < shading_count; ++k) {
     const JoinedDefines both(defines, shade_defines[k]);
-    const Status made = take(
-        make_draw_program("shade", shader::tile_rays_vert, shader::shade_frag, log, both.view()),
-        shade_[k]);
+    const Status made =
+        take(make_draw_program("shade", shader::shade_vert, shader::shade_frag, log, both.view()),
+             shade_[k]);
     if (!made) return made;
   }
   return {};
@@ -145,8 +156,10 @@ Status Renderer::make_programs(ShaderLog log) {
 Status Renderer::make_storage() {
   const int w = sizes_.window.columns(), h = sizes_.window.rows(), levels = sizes_.window.levels;
   Status s = take(make_texture_array(GL_R32F, w + 1, h + 1, levels, 4), posts_);
-  if (s) s = take(make_texture_array(GL_R32F, w / 2 + w / 4, h / 2, levels, 4), highest_);
+  const glm::ivec2 nodes = nodes_texels(w, h);
+  if (s) s = take(make_texture_array(GL_R32F, nodes.x, nodes.y, levels, 4), highest_);
   if (s) s = take(make_texture(GL_R32F, sizes_.planes, sizes_.rows, 1, 4), nodes_);
+  if (s) s = take(make_texture(GL_R32F, sizes_.rows, 1, 1, 4), slopes_);
   if (s) s = take(make_texture(GL_R32UI, rays_width(), rays_height(), 1, 4), range_);
   if (s) s = take(make_texture(GL_RGBA8, rays_width(), rays_height(), 1, 4), shaded_);
   if (s) s = take(make_texture(GL_RGBA8, sizes_.width_px, sizes_.height_px, 1, 4), colour_);
@@ -156,7 +169,6 @@ Status Renderer::make_storage() {
   if (s) s = take(make_buffer(ubo, sizeof(shader::GridBlock), GL_DYNAMIC_DRAW), grid_block_);
   if (s) s = take(make_buffer(ubo, sizeof(shader::StyleBlock), GL_DYNAMIC_DRAW), style_block_);
   if (s) s = take(make_buffer(ssbo, sizes_.planes * sizeof(PlaneRecord), GL_DYNAMIC_DRAW), planes_);
-  if (s) s = take(make_buffer(ssbo, sizes_.rows * sizeof(float), GL_DYNAMIC_DRAW), slopes_);
   if (s) s = take(make_buffer(ssbo, counter_bytes, GL_DYNAMIC_READ), counters_);
   if (s) s = take(make_target(range_), range_target_);
   if (s) s = take(make_target(shaded_), shaded_target_);
@@ -165,13 +177,15 @@ Status Renderer::make_storage() {
 }
 
 Status Renderer::make_tiles() {
-  bind_texture(shader::shaded_unit, shaded_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  const int most = most_tiles(sizes_.width_px) * most_tiles(sizes_.height_px);
-  Status s = take(TileList::make(most), tiles_);
-  if (s) s = take(TileList::make(most), single_tiles_);
-  if (s) s = take(TileList::make(static_cast<int>(most_text_bands)), word_tiles_);
+  blended_ = make_sampler(GL_LINEAR);
+  blocky_ = make_sampler(GL_NEAREST);
+  const int columns = most_tiles(sizes_.width_px), rows = most_tiles(sizes_.height_px);
+  const int most = columns * rows, squares = most_squares(columns, rows);
+  constexpr int bands = static_cast<int>(most_text_bands);
+  Status s = take(TileList::make(most, squares), tiles_);
+  if (s) s = take(TileList::make(most, squares), single_tiles_);
+  if (s)
+    s = take(TileList::make(bands, bands * (columns + ray_tile_px) + sizes_.width_px), word_tiles_);
   if (!s) return s;
   const TileAxis across{sizes_.width_px, 0};
   std::array<RayTile, most_tiles(limits::max_image_px)> row{};
@@ -200,8 +214,9 @@ Renderer::TileRange Renderer::ground_tiles() const {
 void Renderer::write_frame_block(const FrameBlocks& blocks) {
   shader::FrameBlock frame = blocks.frame;
   frame.window.w = all_tiles().count;
-  frame.ray_target = {1.0F / static_cast<float>(rays_width()),
-                      1.0F / static_cast<float>(rays_height()), 0.0F, 0.0F};
+  frame.ray_target = {
+      1.0F / static_cast<float>(rays_width()), 1.0F / static_cast<float>(rays_height()),
+      1.0F / static_cast<float>(sizes_.planes), 1.0F / static_cast<float>(sizes_.rows)};
   write_buffer(GL_UNIFORM_BUFFER, frame_block_, &frame, sizeof frame);
   glBindBufferBase(GL_UNIFORM_BUFFER, shader::frame_block_binding, frame_block_.name());
 }
@@ -287,9 +302,10 @@ void Renderer::begin_terrain(const FrameBlocks& blocks, std::span<const PlaneRec
   tiles_shown_ = tiles;
   tiles_.write(0, tiles.tiles);
   write_buffer(ssbo, planes_, planes.data(), planes.size_bytes());
-  write_buffer(ssbo, slopes_, slopes.data(), slopes.size_bytes());
   glBindBufferBase(ssbo, shader::planes_buffer, planes_.name());
-  glBindBufferBase(ssbo, shader::slopes_buffer, slopes_.name());
+  bind_texture(shader::slopes_unit, slopes_);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(slopes.size()), 1, GL_RED, GL_FLOAT,
+                  slopes.data());
   begin_rays(blocks);
   bind_texture(shader::nodes_unit, nodes_);
   if (!planes.empty()) {
@@ -312,8 +328,8 @@ void Renderer::replace_tiles(const FrameBlocks& blocks, const RayTiles& tiles) {
   write_frame_block(blocks);
 }
 
-void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
-                          const TileRange& tiles) const {
+void Renderer::draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles,
+                          float kept) const {
   const bool whole = &target == &colour_target_;
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, whole ? sizes_.width_px : rays_width(),
@@ -323,32 +339,52 @@ void Renderer::draw_tiles(const Framebuffer& target, const Program& program,
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DITHER);
+  if (kept < 1.0F) blend_dimmed(kept, GL_ZERO);
   glUseProgram(program.name());
-  tile_list().draw(tiles.first, tiles.count);
+  const TileFace face = whole ? TileFace::pixels : TileFace::rays;
+  const TileRange squares = squares_of(tiles, face);
+  tile_list().draw(face, squares.first, squares.count);
+  glDisable(GL_BLEND);
+}
+
+Renderer::TileRange Renderer::squares_of(const TileRange& tiles, TileFace face) const {
+  const std::span<const RayTile> shown = tiles_shown_.tiles;
+  if (shown.empty()) return {0, single_tiles_.squares(face)};
+  TileRange squares;
+  for (int k = 0; k < tiles.first + tiles.count; ++k) {
+    const int count = square_count(shown[static_cast<std::size_t>(k)], face);
+    (k < tiles.first ? squares.first : squares.count) += count;
+  }
+  return squares;
 }
 
 void Renderer::upload_text(std::span<const std::uint8_t> layer) {
   RL_ASSERT(layer.size() == static_cast<std::size_t>(sizes_.width_px) * sizes_.height_px);
   bind_texture(shader::text_unit, text_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sizes_.width_px, sizes_.height_px, GL_RED,
-                  GL_UNSIGNED_BYTE, layer.data());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, sizes_.width_px);
   const auto bands = text_bands(layer, sizes_.width_px, sizes_.height_px);
+  for (const RayTile& band : bands.view()) {  // nothing else of the layer is drawn
+    const auto first = static_cast<std::size_t>(band.y()) * sizes_.width_px + band.x();
+    glTexSubImage2D(GL_TEXTURE_2D, 0, band.x(), band.y(), band.width(), band.height(), GL_RED,
+                    GL_UNSIGNED_BYTE, layer.data() + first);
+  }
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   word_count_ = static_cast<int>(bands.size());
   word_tiles_.write(0, bands.view());
 }
 
-void Renderer::draw_words() const {
+void Renderer::draw_words(float kept) const {
   if (word_count_ == 0) return;
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  blend_dimmed(kept, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(words_.name());
-  word_tiles_.draw(0, word_count_);
+  word_tiles_.draw(TileFace::pixels, 0, word_tiles_.squares(TileFace::pixels));
   glDisable(GL_BLEND);
 }
 
-void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading) {
+void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading,
+                     const Dimming& dimming) {
   constexpr GLenum ubo = GL_UNIFORM_BUFFER;
   write_frame_block(blocks);
   write_buffer(ubo, style_block_, &style, sizeof style);
@@ -360,68 +396,15 @@ void Renderer::shade(const FrameBlocks& blocks, const shader::StyleBlock& style,
   const int ground = ground_tiles().count, sky_tiles = all_tiles().count - ground;
   draw_tiles(shaded_target_, shade_[static_cast<std::size_t>(shading)], ground_tiles());
   bind_texture(shader::shaded_unit, shaded_);
-  draw_tiles(colour_target_, present_, ground_tiles());
-  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles});
-  draw_words();
+  // Colours between rays are blended, but for the picture that has to be had fast.
+  const Sampler& taken = shading == Shading::facets ? blocky_ : blended_;
+  glBindSampler(shader::shaded_unit, taken.name());
+  draw_tiles(colour_target_, present_, ground_tiles(), dimming.picture);
+  glBindSampler(shader::shaded_unit, 0);
+  if (sky_tiles > 0) draw_tiles(colour_target_, sky_, {ground, sky_tiles}, dimming.picture);
+  draw_words(dimming.words);
   timer_.stamp(pass_count);
   glFlush();
-}
-
-void Renderer::read_range(std::span<float> range_m, std::span<std::uint32_t> scratch) {
-  const auto width = static_cast<std::size_t>(sizes_.width_px);
-  RL_ASSERT(range_m.size() == width * static_cast<std::size_t>(sizes_.height_px));
-  RL_ASSERT(scratch.size() >= scratch_words(sizes_.width_px, sizes_.height_px));
-  const auto row = static_cast<std::size_t>(rays_width());
-  glBindFramebuffer(GL_FRAMEBUFFER, range_target_.name());
-  glReadPixels(0, 0, rays_width(), rays_height(), GL_RGBA_INTEGER, GL_UNSIGNED_INT, scratch.data());
-  const auto shown = [&](int x, int y) {
-    const float value = std::bit_cast<float>(
-        scratch[4 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x))]);
-    return value < 0      ? std::numeric_limits<float>::quiet_NaN()
-           : value >= sky ? std::numeric_limits<float>::infinity()
-                          : value;
-  };
-  const RayTile all{0, 0, RayTile::pair(sizes_.width_px, sizes_.height_px), RayTile::pair(1, 1)};
-  const std::span<const RayTile> whole(&all, 1);
-  const bool tiled = !tiles_shown_.tiles.empty();
-  int before = 0;
-  for (const RayTile& tile : tiled ? tiles_shown_.tiles : whole) {
-    const bool plain_sky = tiled && before++ >= tiles_shown_.ground;  // coloured without its ray
-    const BlockShape block = tile.shape();
-    for (int y = 0; y < tile.height(); ++y) {
-      for (int x = 0; x < tile.width(); ++x) {
-        const auto pixel =
-            static_cast<std::size_t>(tile.y() + y) * width + static_cast<std::size_t>(tile.x() + x);
-        range_m[pixel] =
-            plain_sky ? std::numeric_limits<float>::infinity()
-                      : shown(tile.rays_x() + x / block.width, tile.rays_y() + y / block.height);
-      }
-    }
-  }
-}
-
-void Renderer::read_colour(std::span<std::uint8_t> rgba) {
-  const auto row_bytes = static_cast<std::size_t>(sizes_.width_px) * 4;
-  RL_ASSERT(rgba.size() == row_bytes * sizes_.height_px);
-  glBindFramebuffer(GL_FRAMEBUFFER, colour_target_.name());
-  for (int row = 0; row < sizes_.height_px; ++row) {
-    glReadPixels(0, sizes_.height_px - 1 - row, sizes_.width_px, 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                 rgba.data() + row_bytes * row);
-  }
-}
-
-RenderCounters Renderer::read_counters() {
-  RenderCounters result;
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, counters_.name());
-  const void* data = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, counter_bytes, GL_MAP_READ_BIT);
-  if (data == nullptr) {
-    result.unresolved = 1;  // an unreadable counter is no proof
-    return result;
-  }
-  const auto* counters = static_cast<const std::uint32_t*>(data);
-  result = {counters[0], counters[1]};
-  glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
-  return result;
 }
 
 }  // namespace ridgeline

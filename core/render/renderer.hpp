@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/render/dimming.hpp"
 #include "core/render/frame_blocks.hpp"
 #include "core/render/gl_object.hpp"
 #include "core/render/gpu_timer.hpp"
@@ -73,7 +74,8 @@ class Renderer {
   /// From here on every pixel has its own ray: for pictures without terrain, or by others.
   void use_single_rays() { tiles_shown_ = {}; }
   /// Shades the current range picture into the colour target.
-  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading);
+  void shade(const FrameBlocks& blocks, const shader::StyleBlock& style, Shading shading,
+             const Dimming& dimming = {});
   /// Uploads the text layer: width x height bytes, 0 transparent, 255 ink. Row 0 at the top.
   void upload_text(std::span<const std::uint8_t> layer);
 
@@ -89,6 +91,12 @@ class Renderer {
   /// Waits for the frame and reads its counters.
   [[nodiscard]] RenderCounters read_counters();
 
+  /// Exchanges the programs of grid and ray cast for others that draw the same: how the benchmark
+  /// counts their steps (sim/methods).
+  void exchange_marches(Program& sweep, Program& ray_cast);
+  /// What such programs are compiled with.
+  [[nodiscard]] std::string_view march_defines() const;
+
   [[nodiscard]] GpuTimer& timer() { return timer_; }
   [[nodiscard]] const RenderSizes& sizes() const { return sizes_; }
 
@@ -102,10 +110,13 @@ class Renderer {
   struct TileRange {
     int first = 0, count = 0;
   };
-  /// Draws tiles with a program into a target.
-  void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles) const;
+  /// Draws tiles with a program into a target; `kept` as in Dimming.
+  void draw_tiles(const Framebuffer& target, const Program& program, const TileRange& tiles,
+                  float kept = 1.0F) const;
+  /// Their squares, by number.
+  [[nodiscard]] TileRange squares_of(const TileRange& tiles, TileFace face) const;
   /// Draws the text layer over the colour target.
-  void draw_words() const;
+  void draw_words(float kept) const;
   [[nodiscard]] int rays_width() const { return ray_target_px(sizes_.width_px); }
   [[nodiscard]] int rays_height() const { return ray_target_px(sizes_.height_px); }
   [[nodiscard]] const TileList& tile_list() const {
@@ -118,11 +129,14 @@ class Renderer {
   /// Where a pyramid level stands in its layer; the same rule is in shaders/terrain.glsl.
   [[nodiscard]] glm::ivec2 pyramid_corner(int level) const;
 
+  static constexpr std::size_t counter_bytes = 8 * sizeof(std::uint32_t);
+
   RenderSizes sizes_;
   Program sweep_, ray_cast_, count_, present_, sky_, words_;
   std::array<Program, shading_count> shade_;
-  Texture posts_, highest_, nodes_, range_, shaded_, colour_, text_;
-  Buffer frame_block_, grid_block_, style_block_, planes_, slopes_, counters_;
+  Texture posts_, highest_, nodes_, slopes_, range_, shaded_, colour_, text_;
+  Buffer frame_block_, grid_block_, style_block_, planes_, counters_;
+  Sampler blended_, blocky_;  ///< how colours are taken from rays
   TileList tiles_, single_tiles_, word_tiles_;
   RayTiles tiles_shown_;  ///< the caller's; empty: single rays
   int single_count_ = 0, word_count_ = 0;

@@ -109,8 +109,7 @@ std::int64_t extrapolation_ns(const PoseValue& value, const StateLimits& limits)
 void extrapolate_position(OwnshipPose& pose, const OwnshipState& state,
                           const PositionParameters& parameters, std::int64_t now_ns,
                           const StateLimits& limits) {
-  const PoseValue speed =
-      pose_value(state, parameters.ground_speed, now_ns, limits.velocity_timeout_ns);
+  const PoseValue& speed = pose.ground_speed_mps;
   const PoseValue track =
       pose_value(state, parameters.true_track, now_ns, limits.velocity_timeout_ns);
   // Latitude and longitude share one fix; the older frame is nearer to its time.
@@ -163,6 +162,8 @@ void place(OwnshipPose& pose, const OwnshipState& state, std::int64_t now_ns,
   pose.latitude_deg = pose_value(state, parameters.latitude, now_ns, limits.position_timeout_ns);
   pose.longitude_deg = pose_value(state, parameters.longitude, now_ns, limits.position_timeout_ns);
   pose.height_m = pose_value(state, parameters.height, now_ns, limits.height_timeout_ns);
+  pose.ground_speed_mps =
+      pose_value(state, parameters.ground_speed, now_ns, limits.velocity_timeout_ns);
   extrapolate_position(pose, state, parameters, now_ns, limits);
   extrapolate_height(pose, state, now_ns, limits);
 }

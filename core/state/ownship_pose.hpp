@@ -55,7 +55,8 @@ struct OwnshipPose {
   PoseValue heading_deg;    ///< true, [0, 360)
   PositionSource position_source = PositionSource::none;
   HeadingSource heading_source = HeadingSource::none;
-  PoseValue radio_height_m;  ///< only compared, never used to place anything
+  PoseValue radio_height_m;    ///< only compared, never used to place anything
+  PoseValue ground_speed_mps;  ///< of the source of the position
   /// One of several sources of a value above contradicts the others; the value is that of the
   /// others.
   bool source_excluded = false;

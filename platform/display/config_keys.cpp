@@ -82,6 +82,8 @@ const ConfigKey keys[] = {
     {"picture", "range_km", false,
      NumberKey{limits::min_range_m * km, limits::max_range_m* km,
                at<&C::picture, &Picture::range_km>}},
+    {"picture", "night_luminance", false,
+     NumberKey{limits::least_night_luminance, 1.0, at<&C::picture, &Picture::night_luminance>}},
 
     {"monitor", "on", false, BooleanKey{at<&C::monitor, &Monitor::on>}},
     {"monitor", "deadline_ms", false,
@@ -163,6 +165,7 @@ const ConfigKey keys[] = {
     {"lines", "night_active_low", false, line_low<input<DiscreteInput::night>>()},
     {"lines", "on_ground", false, line_name<input<DiscreteInput::on_ground>>()},
     {"lines", "on_ground_active_low", false, line_low<input<DiscreteInput::on_ground>>()},
+    {"lines", "can_hover", false, BooleanKey{at<&C::lines, &C::Lines::can_hover>}},
     {"lines", "hold_ms", false, WholeKey{0, 1'000, at<&C::lines, &C::Lines::hold_ms>}},
 
     {"real_time", "lock_memory", false, BooleanKey{at<&C::real_time, &RealTime::lock_memory>}},

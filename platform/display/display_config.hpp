@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/limits.hpp"
+#include "config/limits_display.hpp"
 #include "core/bus/bus_profile.hpp"
 #include "core/frame/frame_pipeline.hpp"
 #include "core/monitor/discretes.hpp"
@@ -26,6 +27,7 @@ struct DisplayConfig {
     double rate_hz = 30.0;
     double error_px = limits::default_error_px;
     double range_km = limits::default_range_m * 1e-3;
+    double night_luminance = limits::default_night_luminance;
   } picture;
 
   struct Monitor {
@@ -82,6 +84,7 @@ struct DisplayConfig {
     std::array<Line, discrete_output_count> outputs;  ///< by DiscreteOutput
     std::array<Line, discrete_input_count> inputs;    ///< by DiscreteInput
     int hold_ms = static_cast<int>(limits::discrete_hold_ns / limits::ms_ns);
+    bool can_hover = false;  ///< AirGroundFacts::can_hover
   } lines;
 
   struct RealTime {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/frame/display_state.hpp"
 #include "core/monitor/availability.hpp"
 #include "core/monitor/discretes.hpp"
 #include "core/monitor/frame_budget.hpp"
@@ -43,10 +44,13 @@ struct FrameFact {
   std::uint64_t removed = 0;
   std::uint64_t degraded = 0;
   std::uint64_t ground_disagreements = 0;  ///< times the radio height began to contradict
-  BudgetCounters budget;                   ///< of the frame-budget monitor; none without one
-  int budget_step = 0;                     ///< that the next frame is drawn at
-  std::int64_t first_frame_ns = 0;         ///< when it was finished; 0: none yet
-  std::int64_t first_terrain_ns = 0;       ///< the first one with terrain
+  std::uint64_t air_ground_disagreements = 0;
+  DisplayState display;  ///< as the frame was drawn
+  AirGround air_ground = AirGround::unknown;
+  BudgetCounters budget;              ///< of the frame-budget monitor; none without one
+  int budget_step = 0;                ///< that the next frame is drawn at
+  std::int64_t first_frame_ns = 0;    ///< when it was finished; 0: none yet
+  std::int64_t first_terrain_ns = 0;  ///< the first one with terrain
 };
 
 /// What the supervisor says about the lines.
@@ -66,13 +70,15 @@ struct RealTimeStatus {
 /// Everything that passes between the threads of the flight program. No lock: each member has one
 /// writer and one reader, or is one atomic number.
 struct Exchange {
-  LatestValue<OwnshipState> ownship;     ///< bus thread to render thread
-  LatestValue<BusStatus> bus_status;     ///< bus thread to supervisor
-  LatestValue<FrameFact> frame;          ///< render thread to supervisor
-  LatestValue<FrameFact> frame_status;   ///< render thread to log thread
-  LatestValue<BusStatus> bus_report;     ///< bus thread to log thread
-  LatestValue<LineStatus> line_status;   ///< supervisor to log thread
-  std::atomic<bool> display_on{true};    ///< supervisor to render thread, debounced inputs
+  LatestValue<OwnshipState> ownship;    ///< bus thread to render thread
+  LatestValue<BusStatus> bus_status;    ///< bus thread to supervisor
+  LatestValue<FrameFact> frame;         ///< render thread to supervisor
+  LatestValue<FrameFact> frame_status;  ///< render thread to log thread
+  LatestValue<BusStatus> bus_report;    ///< bus thread to log thread
+  LatestValue<LineStatus> line_status;  ///< supervisor to log thread
+  std::atomic<bool> display_on{true};   ///< supervisor to render thread, debounced inputs
+  std::atomic<bool> declutter{false}, night{false};
+  std::atomic<AirGround> air_ground{AirGround::unknown};
   std::atomic<bool> stop{false};         ///< supervisor to all
   std::atomic<bool> want_status{false};  ///< supervisor to log thread
   std::atomic<std::uint32_t> fatal{0};   ///< a Fault that ends the program; the first one stays

@@ -128,6 +128,13 @@ std::string json_of(const FrameReport& report, const std::string& geoid_name, By
   json.open_list("reasons");
   for (const Reason reason : report.availability.reasons) json.add(nullptr, reason_word(reason));
   json.close_list();
+  if (const DisplayState& display = report.display; !(display == DisplayState{})) {
+    json.open_object("display");
+    json.add("luminance", display.luminance);
+    json.add("words_luminance", words_luminance(display));
+    json.add("declutter", display.declutter);
+    json.close_object();
+  }
   json.add("crc32", std::uint64_t{crc32_of_bytes(rgb)});
   json.add("geoid", std::string_view(geoid_name));
   json.close_object();

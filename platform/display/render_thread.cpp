@@ -140,9 +140,26 @@ FrameInput RenderThread::frame_input_now(std::int64_t now_ns) {
   newest_input_ns_ = newest_ns(
       {pose.latitude_deg, pose.height_m, pose.roll_deg, pose.pitch_deg, pose.heading_deg}, now_ns);
   radio_height_m_ = pose.radio_height_m;
-  FrameInput input = frame_input(pose, ground_, now_ns);
+  air_ground_facts_.said = exchange_.air_ground.load(std::memory_order_relaxed);
+  air_ground_facts_.ground_speed_mps = pose.ground_speed_mps;
+  air_ground_facts_.can_hover = config_.lines.can_hover;
+  FrameInput input = frame_input(pose, ground_, air_ground_, now_ns);
   input.bus_frames = newly_decoded();
+  input.display = display_now();
   return input;
+}
+
+DisplayState RenderThread::display_now() const {
+  const bool night = exchange_.night.load(std::memory_order_relaxed);
+  return {night ? config_.picture.night_luminance : 1.0,
+          exchange_.declutter.load(std::memory_order_relaxed)};
+}
+
+/// What a frame shows is judged by the next one: the ground below is known once it is drawn.
+void RenderThread::check_ground(std::int64_t started_ns) {
+  ground_ = ground_check(ground_, radio_height_m_, report_.over_ground_m, started_ns);
+  air_ground_facts_.over_ground_m = report_.over_ground_m;
+  air_ground_ = air_ground_check(air_ground_, air_ground_facts_, started_ns);
 }
 
 /// Bus frames that became values since the last frame of the display. They are the bus thread's
@@ -166,8 +183,7 @@ void RenderThread::draw(std::int64_t due_ns) {
   // Before the screen takes it: to wait for a vertical blank is not work, and no coarser picture
   // would shorten it.
   end_pace(settings, report_);
-  // What this frame shows is judged by the next one: the ground below is known once it is drawn.
-  ground_ = ground_check(ground_, radio_height_m_, report_.over_ground_m, started_ns);
+  check_ground(started_ns);
   fact_.availability = report_.availability;
   const Fault presented = present();
   const std::int64_t finished_ns = monotonic_now_ns();
@@ -213,6 +229,9 @@ void RenderThread::judge(std::int64_t started_ns, std::int64_t finished_ns, Faul
   fact_.bound_px = report_.bound_px;
   fact_.range_km = report_.range_m * 1e-3;
   fact_.ground_disagreements = ground_.disagreements;
+  fact_.air_ground_disagreements = air_ground_.disagreements;
+  fact_.display = report_.display;
+  fact_.air_ground = air_ground_facts_.said;
   if (pace_) {
     fact_.budget = pace_->budget().counters;
     fact_.budget_step = pace_->budget().step;

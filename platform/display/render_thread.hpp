@@ -57,6 +57,8 @@ class RenderThread {
   void loop();
   void prepare_real_time();
   [[nodiscard]] FrameInput frame_input_now(std::int64_t now_ns);
+  [[nodiscard]] DisplayState display_now() const;
+  void check_ground(std::int64_t started_ns);
   Fault present();
   [[nodiscard]] int newly_decoded();
   void judge(std::int64_t started_ns, std::int64_t finished_ns, Fault presented);
@@ -77,7 +79,9 @@ class RenderThread {
   Texture blank_;
   FrameReport report_;
   GroundCheck ground_;
+  AirGroundCheck air_ground_;
   PoseValue radio_height_m_;
+  AirGroundFacts air_ground_facts_;  ///< of the frame being drawn
   FrameFact fact_;
   std::int64_t attitude_ns_ = 0, newest_input_ns_ = 0;
   std::array<Shown, 4> on_the_way_{};

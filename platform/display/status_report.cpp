@@ -134,6 +134,18 @@ void add_integrity(JsonText& json, const UpdateCounters& counters, const FrameFa
   json.open_object("integrity");
   for (const Counted& one : counted) json.add(one.name, std::uint64_t{counters.*one.member});
   json.add("ground_disagreements", frame.ground_disagreements);
+  json.add("air_ground_disagreements", frame.air_ground_disagreements);
+  json.close_object();
+}
+
+/// How the last frame was drawn, and what the air/ground switch said with it.
+void add_display(JsonText& json, const FrameFact& frame) {
+  constexpr const char* words[] = {"unknown", "air", "ground"};  // by AirGround
+  json.open_object("display");
+  json.add("luminance", frame.display.luminance);
+  json.add("words_luminance", words_luminance(frame.display));
+  json.add("declutter", frame.display.declutter);
+  json.add("air_ground", words[static_cast<std::size_t>(frame.air_ground)]);
   json.close_object();
 }
 
@@ -250,6 +262,7 @@ void write_status(JsonText& json, const DisplayConfig& config, const Exchange& e
   json.add("state", why);
   json.add("up_s", ms(now_ns - exchange.start_ns) * 1e-3);
   add_frames(json, exchange, sources.frame);
+  add_display(json, sources.frame);
   add_durations(json, "latency_ms", exchange.latency);
   add_durations(json, "frame_ms", exchange.frame_time);
   add_monitor(json, config, sources.frame);

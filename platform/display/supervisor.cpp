@@ -26,8 +26,26 @@ Status Supervisor::open(const char*& refused) {
   auto lines = GpioLines::open(gpio_settings(config_), monotonic_now_ns(), refused);
   if (!lines) return lines.fault();
   lines_ = std::move(lines).value();
-  exchange_.display_on = lines_->level(DiscreteInput::display_on);
+  pass_switches();
+  for (std::size_t i = 0; i < discrete_input_count; ++i) status_.inputs[i] = level(i);
   return {};
+}
+
+bool Supervisor::level(std::size_t input) const {
+  return lines_->level(static_cast<DiscreteInput>(input));
+}
+
+/// What the render thread acts on. An air/ground switch that cannot be read any more says nothing.
+void Supervisor::pass_switches() {
+  exchange_.display_on = lines_->level(DiscreteInput::display_on);
+  exchange_.declutter = lines_->level(DiscreteInput::declutter);
+  exchange_.night = lines_->level(DiscreteInput::night);
+  const auto& line = config_.lines.inputs[static_cast<std::size_t>(DiscreteInput::on_ground)];
+  const bool readable = !line.name.empty() && !lines_->line_lost();
+  const bool on_ground = lines_->level(DiscreteInput::on_ground);
+  exchange_.air_ground = !readable   ? AirGround::unknown
+                         : on_ground ? AirGround::ground
+                                     : AirGround::air;
 }
 
 void Supervisor::tell_lost(const Status& status) {
@@ -47,13 +65,15 @@ void Supervisor::round(std::int64_t now_ns) {
 
 void Supervisor::read_lines(std::int64_t now_ns) {
   tell_lost(lines_->read(now_ns));
+  constexpr std::array<const char*, discrete_input_count> names = {"display", "declutter", "night",
+                                                                   "on ground"};
   for (std::size_t i = 0; i < discrete_input_count; ++i) {
-    status_.inputs[i] = lines_->level(static_cast<DiscreteInput>(i));
+    if (level(i) == status_.inputs[i]) continue;
+    status_.inputs[i] = level(i);
+    exchange_.supervisor_log.tell(LogLevel::note, "%s: switched %s", names[i],
+                                  level(i) ? "on" : "off");
   }
-  const bool on = lines_->level(DiscreteInput::display_on);
-  if (on != exchange_.display_on.exchange(on)) {
-    exchange_.supervisor_log.tell(LogLevel::note, "display: switched %s", on ? "on" : "off");
-  }
+  pass_switches();
 }
 
 void Supervisor::take_frame(std::int64_t now_ns) {

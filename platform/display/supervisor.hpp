@@ -35,6 +35,8 @@ class Supervisor {
  private:
   void take_frame(std::int64_t now_ns);
   void read_lines(std::int64_t now_ns);
+  [[nodiscard]] bool level(std::size_t input) const;
+  void pass_switches();
   void write_lines(std::int64_t now_ns);
   void keep_service();
   void tell_lost(const Status& status);

@@ -19,8 +19,15 @@ Outcome bench(const BenchOptions& options) {
         options.log_file.empty() ? options.scene.terrain_folder : options.log_file;
     return {Fault::file_malformed, file + ": holds no view to measure at"};
   }
+  return bench_at(options, views, options.scene.terrain_folder);
+}
+
+Outcome bench_at(const BenchOptions& options, const std::vector<BenchView>& views,
+                 const std::string& terrain) {
   BenchResult result;
   if (Outcome run = run_bench(options, views, false, result); !run.ok()) return run;
+  result.terrain = terrain;
+  for (BenchRow& row : result.rows) row.terrain = terrain;
   const std::string table = bench_markdown(result);
   std::fputs(table.c_str(), stdout);
   return write_bench_files(options, result, table);

@@ -45,6 +45,17 @@ Outcome bench(const BenchOptions& options);
 Outcome bench_paper(const BenchOptions& options, const std::string& paper,
                     const std::string& puget_file);
 
+/// The same as bench() over that map and from those views.
+Outcome bench_puget(const BenchOptions& options, const std::string& puget_file);
+
+/// Display range of those views: everything within it is on the map. m
+inline constexpr double puget_range_m = 50'000;
+
+/// Measures at the views, prints the table and writes the files asked for. `terrain`: its name in
+/// the report.
+Outcome bench_at(const BenchOptions& options, const std::vector<BenchView>& views,
+                 const std::string& terrain);
+
 /// Frame times of a recorded flight against a deadline, each of `log_views` frames drawn with the
 /// frame-budget monitor and without. Prints tables; writes `json_file` where it is asked for.
 Outcome bench_monitor(const BenchOptions& options, double deadline_ms);

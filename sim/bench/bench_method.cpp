@@ -43,11 +43,12 @@ std::vector<MethodSpec> default_bench_methods() {
 Outcome make_bench_methods(const std::vector<MethodSpec>& specs, bool tolerant, Session& session,
                            std::vector<BenchMethod>& methods, std::vector<AbsentMethod>& absent) {
   for (const MethodSpec& spec : specs) {
-    BenchMethod one{spec, session.settings(), nullptr, {}};
+    BenchMethod one{spec, session.settings(), nullptr, {}, nullptr};
     if (is_own_method(spec)) {
       const std::string wrong = apply_own_method(spec, one.settings);
       if (!wrong.empty()) return {Fault::file_malformed, wrong};
       one.own_params = own_params_of(one.settings);
+      one.bearing = std::make_unique<BlockBearing>();
       methods.push_back(std::move(one));
       continue;
     }

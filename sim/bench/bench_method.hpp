@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct BenchMethod {
   FrameSettings settings;    ///< of the frame; for the module's own ways they are the method
   Method* method = nullptr;  ///< kept by the session; null: one of the module's own ways
   std::string own_params;    ///< of those
+  std::unique_ptr<BlockBearing> bearing;  ///< kept from frame to frame by those, as in flight
 
   [[nodiscard]] std::string params() const {
     return method == nullptr ? own_params : std::string(method->params());

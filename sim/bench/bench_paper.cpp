@@ -15,7 +15,6 @@ namespace ridgeline::sim {
 namespace {
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
-constexpr double range_m = 50'000;
 // A circle over the foothills west of Mount Rainier, in shares of the map's side. Everything within
 // the range of it is on the map.
 constexpr double circle_column = 640.0 / 1024, circle_row = 560.0 / 1024,
@@ -41,6 +40,20 @@ class TemporaryTiles {
  private:
   std::string path_;
 };
+
+/// The map as a terrain folder, for as long as it lives.
+struct PlacedMap {
+  PugetMap map;
+  TemporaryTiles tiles;
+
+  Outcome place(const std::string& puget_file);
+};
+
+Outcome PlacedMap::place(const std::string& puget_file) {
+  if (Outcome read = read_puget(puget_file, map); !read.ok()) return read;
+  if (tiles.path().empty()) return failed(Fault::file_unwritable, "temporary folder");
+  return write_puget_tile(map, tiles.path());
+}
 
 }  // namespace
 
@@ -69,14 +82,11 @@ Outcome bench_paper(const BenchOptions& options, const std::string& name,
                     const std::string& puget_file) {
   const Paper* const paper = find_paper(name);
   if (paper == nullptr) return {Fault::file_malformed, "no paper is called '" + name + "'"};
-  PugetMap map;
-  if (Outcome read = read_puget(puget_file, map); !read.ok()) return read;
-  const TemporaryTiles tiles;
-  if (tiles.path().empty()) return failed(Fault::file_unwritable, "temporary folder");
-  if (Outcome written = write_puget_tile(map, tiles.path()); !written.ok()) return written;
+  PlacedMap placed;
+  if (Outcome done = placed.place(puget_file); !done.ok()) return done;
   BenchOptions of_paper = options;
-  of_paper.scene.terrain_folder = tiles.path();
-  of_paper.scene.settings.range_m = range_m;
+  of_paper.scene.terrain_folder = placed.tiles.path();
+  of_paper.scene.settings.range_m = puget_range_m;
   of_paper.scene.settings.image.width_px = paper->width_px;
   of_paper.scene.settings.image.height_px = paper->height_px;
   of_paper.methods.clear();
@@ -86,13 +96,21 @@ Outcome bench_paper(const BenchOptions& options, const std::string& name,
     of_paper.methods.push_back(std::move(spec));
   }
   BenchResult result;
-  Outcome run = run_bench(of_paper, puget_views(map, options.log_views), true, result);
+  Outcome run = run_bench(of_paper, puget_views(placed.map, options.log_views), true, result);
   if (!run.ok()) return run;
   result.terrain = puget_file;
   for (BenchRow& row : result.rows) row.terrain = puget_file;
   const std::string table = paper_markdown(*paper, result);
   std::fputs(table.c_str(), stdout);
   return write_bench_files(options, result, table);
+}
+
+Outcome bench_puget(const BenchOptions& options, const std::string& puget_file) {
+  PlacedMap placed;
+  if (Outcome done = placed.place(puget_file); !done.ok()) return done;
+  BenchOptions over_map = options;
+  over_map.scene.terrain_folder = placed.tiles.path();
+  return bench_at(over_map, puget_views(placed.map, options.log_views), puget_file);
 }
 
 }  // namespace ridgeline::sim

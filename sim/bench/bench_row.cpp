@@ -17,7 +17,8 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -32,7 +33,7 @@ Json row_json(const BenchRow& row) {
   json["frame_ms_median"] = row.median_ms();
   json["frame_ms_p99"] = percentile(row.frame_ms, 0.99);
   json["frame_ms_max"] = percentile(row.frame_ms, 1.0);
-  json["core_ms"] = percentile(row.core_ms, 0.5);
+  json["core_ms"] = row.median_core_ms();
   json["gpu_ms"] = or_null(row.median_gpu_ms());
   json["error_px_max"] = row.error.worst_px;
   json["error_px_max_is_larger"] = row.error.worst_is_larger;
@@ -42,7 +43,12 @@ Json row_json(const BenchRow& row) {
   json["wrong_class_pixels"] = row.error.wrong_class;
   json["judged_pixels"] = row.error.errors_px.size();
   json["ray_cast_share"] = row.ray_cast_share;
-  json["steps_per_pixel"] = or_null(row.mean_steps());
+  const std::optional<PixelSteps> steps = row.mean_steps();
+  const auto part = [&](double PixelSteps::*of) { return steps ? Json((*steps).*of) : Json(); };
+  json["steps_per_pixel"] = steps ? Json(steps->all()) : Json();
+  json["nodes_per_pixel"] = part(&PixelSteps::nodes);
+  json["cells_per_pixel"] = part(&PixelSteps::cells);
+  json["grid_nodes_per_pixel"] = part(&PixelSteps::grid_nodes);
   json["gpu_bytes"] = row.gpu_bytes;
   json["heap_bytes"] = row.heap_bytes;
   json["build_ms"] = row.build_ms;
@@ -72,19 +78,20 @@ void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
   add(text, "| %s | %s | %.1f | %.1f | %.1f | %.2f | %.1f | %s |", row.spec.c_str(),
       row.view.c_str(), row.median_ms(), percentile(row.frame_ms, 0.99),
       percentile(row.frame_ms, 1.0), fastest_ms > 0 ? row.median_ms() / fastest_ms : 0.0,
-      percentile(row.core_ms, 0.5), number(row.median_gpu_ms(), "%.1f").c_str());
+      row.median_core_ms(), number(row.median_gpu_ms(), "%.1f").c_str());
   add(text, " %s | %s%.3f | %.3f | %.4f | %.2f | %d | %.0f | %s | %.1f | %.1f | %.0f |\n",
       number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
       row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
       row.error.percent_over_px(1.0), row.error.wrong_class, 100.0 * row.ray_cast_share,
-      number(row.mean_steps(), "%.2f").c_str(), static_cast<double>(row.gpu_bytes) * mib,
+      steps_text(row).c_str(), static_cast<double>(row.gpu_bytes) * mib,
       static_cast<double>(row.heap_bytes) * mib, row.build_ms);
 }
 
 void add_table(std::string& text, const BenchResult& result, bool of_all) {
   text +=
       "| method | view | median ms | p99 ms | max ms | times fastest | core ms | GPU ms | bound px "
-      "| error max px | p99 px | mean px | % over 1 px | wrong class | % ray cast | steps a px | "
+      "| error max px | p99 px | mean px | % over 1 px | wrong class | % ray cast | steps a px, "
+      "nodes + cells | "
       "GPU MiB | heap MiB | build ms |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const BenchRow& row : result.rows) {
@@ -164,14 +171,34 @@ double BenchRow::median_ms() const {
   return percentile(frame_ms, 0.5);
 }
 
+double BenchRow::median_core_ms() const {
+  return percentile(core_ms, 0.5);
+}
+
 std::optional<double> BenchRow::median_gpu_ms() const {
   const double median = percentile(gpu_ms, 0.5);
   return median > 0 ? std::optional(median) : std::nullopt;
 }
 
-std::optional<double> BenchRow::mean_steps() const {
-  const double sum = std::accumulate(steps.begin(), steps.end(), 0.0);
-  return sum > 0 ? std::optional(sum / static_cast<double>(steps.size())) : std::nullopt;
+std::optional<PixelSteps> BenchRow::mean_steps() const {
+  if (steps.empty()) return std::nullopt;
+  PixelSteps mean;
+  const double share = 1.0 / static_cast<double>(steps.size());
+  for (const PixelSteps& one : steps) {
+    mean.nodes += share * one.nodes;
+    mean.cells += share * one.cells;
+    mean.grid_nodes += share * one.grid_nodes;
+  }
+  return mean;
+}
+
+std::string steps_text(const BenchRow& row) {
+  const std::optional<PixelSteps> steps = row.mean_steps();
+  if (!steps) return row.frame_ms.empty() ? "–" : "not counted";
+  if (steps->all() == 0) return "0";
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f + %.2f", steps->nodes + steps->grid_nodes, steps->cells);
+  return text;
 }
 
 std::string bench_json(const BenchResult& result) {

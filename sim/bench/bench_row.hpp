@@ -18,6 +18,14 @@ struct BenchError {
   [[nodiscard]] double percent_over_px(double limit_px) const;
 };
 
+/// Steps of the marches of one frame, by its pixels.
+struct PixelSteps {
+  double nodes = 0, cells = 0;  ///< of rays
+  double grid_nodes = 0;        ///< of the planes of a projected grid
+
+  [[nodiscard]] double all() const { return nodes + cells + grid_nodes; }
+};
+
 /// One method at one view, or over all of them.
 struct BenchRow {
   std::string method;  ///< name alone
@@ -26,8 +34,9 @@ struct BenchRow {
   std::string terrain;
   std::string view;  ///< `all` in the row that sums a method up
   std::optional<double> epsilon_px, bound_px;
-  std::vector<double> frame_ms, core_ms, gpu_ms, steps;  ///< of each counted frame
-  double ray_cast_share = 0;                             ///< mean over the counted frames
+  std::vector<double> frame_ms, core_ms, gpu_ms;  ///< of each counted frame
+  std::vector<PixelSteps> steps;                  ///< of each view; none: not counted
+  double ray_cast_share = 0;                      ///< mean over the counted frames
   BenchError error;
   std::size_t gpu_bytes = 0, heap_bytes = 0;
   double build_ms = 0;
@@ -37,8 +46,9 @@ struct BenchRow {
   /// Takes in what another row of the same method measured.
   void join(const BenchRow& other);
   [[nodiscard]] double median_ms() const;
+  [[nodiscard]] double median_core_ms() const;
   [[nodiscard]] std::optional<double> median_gpu_ms() const;
-  [[nodiscard]] std::optional<double> mean_steps() const;
+  [[nodiscard]] std::optional<PixelSteps> mean_steps() const;
 };
 
 /// A method that was asked for and could not be drawn.
@@ -52,6 +62,9 @@ struct BenchResult {
   std::vector<BenchRow> rows;  ///< of each view, then those over all
   std::vector<AbsentMethod> absent;
 };
+
+/// Steps a pixel of a row: nodes of both sorts + cells; a word where nobody counted them.
+[[nodiscard]] std::string steps_text(const BenchRow& row);
 
 /// The rows as JSON, contract section 4; `absent` stands beside them.
 [[nodiscard]] std::string bench_json(const BenchResult& result);

@@ -46,10 +46,11 @@ class Run {
  private:
   void use(const BenchMethod& method) {
     session_.settings() = method.settings;
-    session_.use(method.method);
+    session_.use(method.method, method.bearing.get());
   }
   [[nodiscard]] BenchRow row_of(const BenchMethod& method, const BenchView& view) const;
   Outcome time_frame(const BenchMethod& method, const BenchView& view, bool counted, BenchRow& row);
+  Outcome count_steps(const BenchView& view, BenchRow& row);
   Outcome judge_view(const BenchView& view, ProgressBar& bar, std::vector<BenchRow>& rows);
 
   const BenchOptions& options_;
@@ -84,10 +85,11 @@ Outcome Run::time_frame(const BenchMethod& method, const BenchView& view, bool c
   row.frame_ms.push_back(picture.cpu_ms);
   row.range_m = picture.report.range_m;
   const auto& ms = picture.counts.pass_ms;
-  row.gpu_ms.push_back(std::accumulate(ms.begin(), ms.end(), 0.0));
+  if (const double gpu_ms = std::accumulate(ms.begin(), ms.end(), 0.0); gpu_ms > 0) {
+    row.gpu_ms.push_back(gpu_ms);
+  }
   const double bound_px = std::max(picture.report.bound_px, picture.method.bound_px);
   if (bound_px > 0) row.bound_px = std::max(row.bound_px.value_or(0.0), bound_px);
-  row.steps.push_back(picture.method.steps_per_pixel);
   const auto frames = static_cast<double>(row.frame_ms.size());
   row.ray_cast_share += (picture.counts.ray_cast_share - row.ray_cast_share) / frames;
   row.gpu_bytes = shared_.gpu_bytes + picture.method.gpu_bytes;
@@ -127,7 +129,20 @@ Outcome Run::judge_view(const BenchView& view, ProgressBar& bar, std::vector<Ben
     if (!begun) judge_.begin_view(picture, options_.judged_pixels);
     begun = true;
     rows[m].error = judge_.error_of(picture);
+    if (Outcome counted = count_steps(view, rows[m]); !counted.ok()) return counted;
   }
+  return {};
+}
+
+Outcome Run::count_steps(const BenchView& view, BenchRow& row) {
+  std::optional<StepCounts> counts;
+  const Picture picture = session_.draw_counting(view.input, false, counts);
+  if (!picture.problem.ok() || !counts) return picture.problem;
+  const ImageGeometry& image = base_.image;
+  const double share = 1.0 / (static_cast<double>(image.width_px) * image.height_px);
+  row.steps.push_back({share * static_cast<double>(counts->nodes),
+                       share * static_cast<double>(counts->cells),
+                       share * static_cast<double>(counts->grid_nodes)});
   return {};
 }
 

@@ -11,7 +11,7 @@ namespace {
 struct BenchArguments : SceneArguments {
   BenchOptions options;
   std::string methods, paper, puget_file;
-  bool own_picture = false;  ///< --size or --range was given
+  bool own_size = false, own_range = false;  ///< given
   bool monitor = false;
   double deadline_ms = 1e-6 * static_cast<double>(limits::default_deadline_ns);
 };
@@ -23,13 +23,26 @@ std::string wrong_combination(const BenchArguments& arguments) {
     return "--monitor measures the module's own passes alone";
   }
   if (arguments.paper.empty()) {
-    if (!arguments.puget_file.empty()) return "--puget goes with --paper";
+    const bool own_views =
+        !arguments.scene.terrain_folder.empty() || !arguments.options.log_file.empty();
+    if (!arguments.puget_file.empty()) {
+      return own_views ? "--puget brings its own terrain and views: no --terrain, no --log" : "";
+    }
     return arguments.scene.terrain_folder.empty() ? "--terrain is required (see --help)" : "";
   }
   if (arguments.puget_file.empty()) return "--paper needs --puget FILE";
   const bool own_scene = arguments.scene.terrain_folder.empty() && arguments.methods.empty() &&
-                         arguments.options.log_file.empty() && !arguments.own_picture;
+                         arguments.options.log_file.empty() && !arguments.own_size &&
+                         !arguments.own_range;
   return own_scene ? "" : "--paper brings its own terrain, views, methods, size and range";
+}
+
+Outcome measure(BenchArguments& arguments) {
+  BenchOptions& options = arguments.options;
+  if (!arguments.paper.empty()) return bench_paper(options, arguments.paper, arguments.puget_file);
+  if (arguments.puget_file.empty()) return bench(options);
+  if (!arguments.own_range) options.scene.settings.range_m = puget_range_m;
+  return bench_puget(options, arguments.puget_file);
 }
 
 int run_bench(BenchArguments& arguments) {
@@ -53,9 +66,7 @@ int run_bench(BenchArguments& arguments) {
     const Outcome measured = bench_monitor(arguments.options, arguments.deadline_ms);
     return measured.ok() ? done : fail(bad_input, measured.message);
   }
-  const Outcome measured = arguments.paper.empty() ? bench(arguments.options)
-                                                   : bench_paper(arguments.options, arguments.paper,
-                                                                 arguments.puget_file);
+  const Outcome measured = measure(arguments);
   return measured.ok() ? done : fail(bad_input, measured.message);
 }
 
@@ -72,13 +83,14 @@ void add_bench_command(CLI::App& program, int& status) {
       ->add_option("--paper", arguments->paper,
                    "redo a paper's table over the map of Puget Sound: its size, grids, settings")
       ->check(CLI::IsMember({"loffler", "livny", "ammann", "dachsbacher"}));
-  command->add_option("--puget", arguments->puget_file,
-                      "that map: a square 16-bit grey PNG, 0.1 m a unit");
+  command->add_option(
+      "--puget", arguments->puget_file,
+      "that map, a square 16-bit grey PNG, 0.1 m a unit; alone: all methods over it");
   command->add_option("--methods", arguments->methods,
                       "what to measure: a,b:setting=value,c; all there are if not given");
   command->add_option("--log", options.log_file, "take the views from a recorded flight");
   command
-      ->add_option("--views", options.log_views, "views of the flight or the paper, spaced over it")
+      ->add_option("--views", options.log_views, "views of the flight or the map, spaced over it")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   command->add_option("--json", options.json_file, "file for the rows");
@@ -97,7 +109,8 @@ void add_bench_command(CLI::App& program, int& status) {
                      1e-6 * static_cast<double>(limits::max_deadline_ns)))
       ->capture_default_str();
   command->callback([arguments, command, &status] {
-    arguments->own_picture = command->count("--size") > 0 || command->count("--range") > 0;
+    arguments->own_size = command->count("--size") > 0;
+    arguments->own_range = command->count("--range") > 0;
     status = run_bench(*arguments);
   });
 }

@@ -11,6 +11,7 @@ namespace {
 struct PoseArguments : SceneArguments {
   GeodeticPosition eye;
   Attitude attitude;
+  DisplayState display;
   std::string dump_folder;
 };
 
@@ -31,6 +32,7 @@ int run_pose(PoseArguments& arguments) {
   FrameInput input;
   input.eye = arguments.eye;
   input.attitude = arguments.attitude;
+  input.display = arguments.display;
   const Picture picture = session.draw(input, true);
   tell_problems(session);
   if (!picture.problem.ok()) return fail(bad_input, picture.problem.message);
@@ -70,6 +72,7 @@ void add_pose_command(CLI::App& program, int& status) {
   number("PITCH", arguments->attitude.pitch_deg, "degrees, nose up +");
   number("HEADING", arguments->attitude.heading_deg, "degrees true");
   add_scene_options(*command, *arguments);
+  add_display_options(*command, arguments->display);
   command->add_option("--dump", arguments->dump_folder, "folder for 000000.json and its files");
   command->callback([arguments, &status] { status = run_pose(*arguments); });
 }

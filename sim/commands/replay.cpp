@@ -23,6 +23,7 @@ struct ReplayArguments : SceneArguments {
   std::string fine = "add";
   std::string canfix_height = "unknown";
   std::string monitor = "off";
+  std::string air_ground = "unknown";
 };
 
 /// "PORT=EQ" into the profile; an error message, or empty.
@@ -95,6 +96,9 @@ int run_replay(ReplayArguments& arguments) {
   options.scene.arrival = arguments.arrival == "as-ready" ? SceneOptions::Arrival::as_ready
                                                           : SceneOptions::Arrival::in_step;
   options.bus.header_rule = arguments.profile == "strict" ? HeaderRule::strict : HeaderRule::field;
+  options.air_ground = arguments.air_ground == "air"      ? AirGround::air
+                       : arguments.air_ground == "ground" ? AirGround::ground
+                                                          : AirGround::unknown;
   options.heading_assumed = arguments.heading == "assume-true";
   options.bus.heading_reference = arguments.heading == "unknown" ? HeadingReference::unknown
                                   : arguments.heading == "magnetic"
@@ -178,6 +182,12 @@ void add_replay_command(CLI::App& program, int& status) {
   command->add_option("LOG", options.log_file, "recorded bus: candump, Vector ASC or PEAK TRC text")
       ->required();
   add_scene_options(*command, *arguments);
+  add_display_options(*command, options.display);
+  command
+      ->add_option("--air-ground", arguments->air_ground,
+                   "what an air/ground switch says all the time")
+      ->check(CLI::IsMember({"unknown", "air", "ground"}))
+      ->capture_default_str();
   command->add_option("--rate", options.rate_hz, "frames per second of log time")
       ->check(within(0.01, 200.0))
       ->capture_default_str();

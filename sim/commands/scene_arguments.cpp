@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "config/limits_display.hpp"
+
 namespace ridgeline::sim {
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments) {
@@ -26,6 +28,15 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
       .add_option("--method", arguments.method,
                   "what draws, NAME or NAME:setting=value,...; docs/commands.md lists them")
       ->capture_default_str();
+}
+
+void add_display_options(CLI::App& command, DisplayState& display) {
+  command
+      .add_option("--night", display.luminance,
+                  "by night: share of the luminance of the day, in linear light")
+      ->check(within(limits::least_night_luminance, 1.0));
+  command.add_flag("--declutter", display.declutter,
+                   "neither contours nor ground grid, and fewer words");
 }
 
 namespace {

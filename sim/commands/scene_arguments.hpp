@@ -16,6 +16,9 @@ struct SceneArguments {
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
+/// The pilot's switches that change the picture: `pose` and `replay` have them.
+void add_display_options(CLI::App& command, DisplayState& display);
+
 /// Checks and completes the options; an error message, or empty.
 std::string complete(SceneArguments& arguments);
 

@@ -87,6 +87,8 @@ class Embree final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  /// Embree's traversal tells nothing of its steps.
+  [[nodiscard]] RaySteps ray_steps() const override { return RaySteps::not_counted; }
   [[nodiscard]] MethodFacts facts() override;
 
  private:

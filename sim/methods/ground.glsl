@@ -32,7 +32,7 @@ vec2 ground_of_posts(vec2 posts) {
 // A post's place in the texture of its level; posts relative to the eye's, in lattice posts.
 ivec2 post_texel(ivec2 post, int level) {
   ivec2 size = ivec2(level_size.xy);
-  ivec2 texel = level_texel(post, level);
+  ivec2 texel = level_texel(window_here(), post, level);
   texel += ivec2(lessThan(texel, ivec2(0))) * size;
   return texel - ivec2(greaterThanEqual(texel, size)) * size;
 }
@@ -59,8 +59,9 @@ vec2 bilinear_height(vec2 posts) {
   vec2 at = held_posts(posts);
   ivec2 cell = ivec2(floor(at));
   int level = level_of(cell, cell + 1, 0);
-  Cell c = cell_at(cell, level);
-  vec2 f = (at - vec2(level_low(cell, level))) / float(1 << level);
+  Window w = window_here();
+  Cell c = cell_at(w, cell, level);
+  vec2 f = (at - vec2(level_low(w, cell, level))) / float(1 << level);
   float height = c.h00 + c.dx * f.x + c.dy * f.y + c.dxy * f.x * f.y;
   return vec2(height, c.unknown ? 1.0 : 0.0);
 }
@@ -70,7 +71,7 @@ vec2 nearest_height(vec2 posts) {
   ivec2 cell = ivec2(floor(held_posts(posts)));
   int level = level_of(cell, cell + 1, 0);
   float step = float(1 << level);
-  vec2 low = vec2(level_low(cell, level));
+  vec2 low = vec2(level_low(window_here(), cell, level));
   return post_height(ivec2(low + step * floor((held_posts(posts) - low) / step + 0.5)), level);
 }
 

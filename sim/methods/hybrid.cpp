@@ -11,6 +11,7 @@
 #include "sim/methods/hybrid_cells.hpp"
 #include "sim/methods/raster_target.hpp"
 #include "sim/methods/setting_reader.hpp"
+#include "sim/methods/step_counter.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -123,15 +124,24 @@ class Hybrid final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  void warm_up(const RangeScene& scene) override;
+  [[nodiscard]] RaySteps ray_steps() const override { return RaySteps::counted; }
+  Outcome use_counting(bool counting) override {
+    return counting_.use(counting,
+                         {"hybrid_cast", shader::hybrid_cast_vert, shader::hybrid_cast_frag},
+                         cast_.program);
+  }
   [[nodiscard]] MethodFacts facts() override;
 
  private:
   Outcome make_programs();
   void choose(const RangeScene& scene);
+  void draw_chosen(const RangeScene& scene);
 
   HybridSettings settings_;
   RasterTarget target_;
   CellPass mesh_, cast_;
+  CountingProgram counting_;
   Framebuffer read_back_;
   GLuint range_ = 0;
   RenderSizes sizes_;
@@ -203,6 +213,19 @@ void Hybrid::choose(const RangeScene& scene) {
 
 void Hybrid::draw(const RangeScene& scene) {
   choose(scene);
+  draw_chosen(scene);
+}
+
+void Hybrid::warm_up(const RangeScene& scene) {
+  choose(scene);
+  // One cell more than there may be to see, drawn in both ways.
+  for (CellPass* pass : {&mesh_, &cast_}) {
+    if (pass->chosen.empty() && pass->capacity > 0) pass->chosen.push_back({0, 0, 0, 1 << 8 | 1});
+  }
+  draw_chosen(scene);
+}
+
+void Hybrid::draw_chosen(const RangeScene& scene) {
   range_ = scene.renderer.names().range;
   target_.begin(scene.renderer);
   glUseProgram(mesh_.program.name());

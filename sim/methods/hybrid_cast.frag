@@ -47,6 +47,7 @@ void keep_below(inout vec2 span, float a, float b, float c, float high) {
 
 // x: how far the ray is below the surface; y: 1 where that is unknown.
 vec2 below(Way w, float s) {
+  count_cell
   vec3 p = along(w, s);
   vec2 surface = bilinear_height(p.xy);
   return vec2(surface.x - p.z, surface.y);

@@ -17,8 +17,9 @@
 namespace ridgeline::sim {
 namespace {
 
-constexpr int block_binding = 3;  ///< of loffler_block.glsl
-constexpr int relief_unit = 2;    ///< of loffler_refine.comp
+constexpr int block_binding = 3;      ///< of loffler_block.glsl
+constexpr int relief_unit = 2;        ///< of loffler_refine.comp
+constexpr GLuint coarse_binding = 1;  ///< likewise
 constexpr int refine_threads = 64;
 constexpr std::size_t vertex_bytes = 8 * sizeof(float);
 constexpr double least_base_m = 50.0;  ///< of the eye over the base plane
@@ -231,7 +232,7 @@ void Loffler::upload_frame(const RangeScene& scene) {
 
 void Loffler::refine() {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::planes_buffer, vertices_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::slopes_buffer, coarse_buffer_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, coarse_binding, coarse_buffer_.name());
   glActiveTexture(GL_TEXTURE0 + relief_unit);
   glBindTexture(GL_TEXTURE_2D, relief_texture_.name());
   glUseProgram(refine_.name());
@@ -294,6 +295,11 @@ void Loffler::read_errors(std::span<float> errors) {
       errors[out++] = std::bit_cast<float>(row_words_[x]);
     }
   }
+}
+
+Outcome Loffler::use_counting(bool counting) {
+  return counting_.use(
+      counting, {"loffler_cast", shader::loffler_cast_vert, shader::loffler_cast_frag}, cast_);
 }
 
 MethodFacts Loffler::facts() {

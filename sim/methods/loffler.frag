@@ -10,7 +10,8 @@ float unknown_at(vec2 posts) {
   if (options.z == 0 || unknown > 0.0) return unknown;
   ivec2 cell = ivec2(floor(held_posts(posts)));
   int level = level_of(cell, cell + 1, 0);
-  vec4 corners = four_posts(level_texel(cell, level), level);
+  Window w = window_here();
+  vec4 corners = four_posts(w, level_texel(w, cell, level), level);
   return any(lessThan(corners, vec4(void_threshold))) ? 1.0 : 0.0;
 }
 

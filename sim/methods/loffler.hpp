@@ -7,6 +7,7 @@
 #include "sim/methods/method.hpp"
 #include "sim/methods/raster_target.hpp"
 #include "sim/methods/relief_pyramid.hpp"
+#include "sim/methods/step_counter.hpp"
 
 namespace ridgeline::sim {
 
@@ -67,6 +68,10 @@ class Loffler final : public Method {
   [[nodiscard]] std::string params() const override;
   Outcome build(const MethodTerrain& terrain, const RenderSizes& sizes) override;
   void draw(const RangeScene& scene) override;
+  [[nodiscard]] RaySteps ray_steps() const override {
+    return settings_.rays ? RaySteps::counted : RaySteps::no_rays;
+  }
+  Outcome use_counting(bool counting) override;
   [[nodiscard]] MethodFacts facts() override;
 
   /// The error buffer of the last frame drawn with rays: 0 where nothing is to be cast, and where
@@ -96,6 +101,7 @@ class Loffler final : public Method {
   bool voids_ = false;
 
   Program refine_, draw_, cast_;
+  CountingProgram counting_;
   Buffer block_, coarse_buffer_, vertices_, indices_;
   VertexArray arrays_, empty_;
   Texture relief_texture_, surface_, depth_;

@@ -27,6 +27,7 @@ float cast_ray(Ray r, float start) {
   float ceiling = over_eye(heights.x) + 1.0;
   int largest = int(heights.z), size = 3;
   float t = r.up < 0.0 ? max(start, ceiling / r.up) : start;
+  Window w = window_here();
   for (int steps = 0; steps < step_limit; ++steps) {
     if (t > ray_origin.w) return sky;
     RayPoint p = ray_point(r, t);
@@ -38,24 +39,24 @@ float cast_ray(Ray r, float start) {
     ivec2 cell = ivec2(cell_ahead(at, rate));
     int level = level_of(cell, cell + 1, 0);
     size = clamp(size, level, level + node_levels);
-    float exit = min(exit_distance(cell, size, at, rate), heights.w);
+    float exit = min(exit_distance(w, cell, size, at, rate), heights.w);
     float leave = exit + 3.0e-5 + 4.0e-7 * t;
     if (size > level) {
-      ivec2 low = level_low(cell, size);
+      ivec2 low = level_low(w, cell, size);
       int holder = level_of(low, low + (1 << size), level);
       float lowest = height + min(p.height_rate, 0.0) * leave;  // the height is convex in t
       bool clear = false;
       if (holder < size) {
-        float k = node_highest(cell, size, holder);
+        float k = node_highest(w, cell, size, holder);
         clear = lowest > k + 1.0e-6 * (abs(k) + abs(height)) + 1.0e-5;
       }
       t += clear ? leave : 0.0;
       size += clear && size < largest ? 1 : (clear ? 0 : -1);
       continue;
     }
-    Cell c = cell_at(cell, level);
+    Cell c = cell_at(w, cell, level);
     float unit = 1.0 / float(1 << level);
-    vec2 inside = (at - vec2(level_low(cell, level))) * unit;
+    vec2 inside = (at - vec2(level_low(w, cell, level))) * unit;
     vec3 gap = gap_along(c, inside, rate * unit, height, p.height_rate, bend);
     float straight = 0.5 * heights.y + sqrt(heights.y * t);  // the track bends, see ray_cast.frag
     float hit = gap.x > 0.0 ? first_zero(gap) : 0.0;

@@ -4,7 +4,7 @@ layout(local_size_x = 64) in;
 layout(binding = 2) uniform highp sampler2D relief_texture;  // average, lowest, highest, known
 // Two a vertex: clip coordinates; then post coordinates, the normalised error, and 1 where unknown.
 layout(std430, binding = planes_buffer) writeonly buffer Vertices { vec4 vertices[]; };
-layout(std430, binding = slopes_buffer) readonly buffer Coarse { vec2 coarse[]; };
+layout(std430, binding = 1) readonly buffer Coarse { vec2 coarse[]; };
 
 const int coarse_cells = 32;  // a side; CoarseGrid::cells
 

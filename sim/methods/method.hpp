@@ -27,10 +27,12 @@ struct MethodTerrain {
 struct MethodFacts {
   double bound_px = 0;         ///< promised; 0: none
   double ray_cast_share = 0;   ///< pixels answered by a ray / all pixels
-  double steps_per_pixel = 0;  ///< of rays or planes over all pixels; 0: not counted
   std::size_t gpu_bytes = 0;   ///< GL storage of the method's own, posts not counted
   std::size_t heap_bytes = 0;  ///< heap of the method's own
 };
+
+/// Whether a method casts rays, and whether their steps can be counted.
+enum class RaySteps : std::uint8_t { no_rays, counted, not_counted };
 
 /// One published way to draw terrain, drawing the range picture of a frame into the renderer's own
 /// target from the renderer's own posts, on the same curved Earth. Positions on the ground go
@@ -50,9 +52,20 @@ class Method {
   /// Draws Renderer::names().range: R32UI, distance along the ray as float bits; 1e30 sky, negative
   /// unknown; every pixel is written. Row 0 of the target is the top of the picture.
   virtual void draw(const RangeScene& scene) = 0;
+  /// Draws as draw() does, but runs every program the method has, needed by this scene or not: a
+  /// driver compiles a program at its first use, which belongs to boot. After the first build().
+  virtual void warm_up(const RangeScene& scene) { draw(scene); }
   /// Draws over the shaded colour target what a range picture cannot show; after a frame's time,
   /// and only where its picture is wanted. The blocks and textures of shade() are still bound.
   virtual void finish_picture(const Renderer& renderer) { static_cast<void>(renderer); }
+  [[nodiscard]] virtual RaySteps ray_steps() const { return RaySteps::no_rays; }
+  /// From the next frame on draws with variants of its programs that count the steps of rays
+  /// (step_counter.hpp), or with its own again. After build(); not in a frame. Asked of methods
+  /// alone whose steps are counted. Outcome: gl_shader.
+  virtual Outcome use_counting(bool counting) {
+    static_cast<void>(counting);
+    return {};
+  }
   /// Of the last frame. May wait for the GPU; not called in the timed part of a frame.
   [[nodiscard]] virtual MethodFacts facts() = 0;
 };

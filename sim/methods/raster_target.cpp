@@ -69,12 +69,13 @@ std::size_t RasterTarget::gpu_bytes() const {
 }
 
 Outcome make_method_program(std::string_view name, std::string_view vertex,
-                            std::string_view fragment, Program& program) {
-  return take(name, make_draw_program(name, vertex, fragment, print_log), program);
+                            std::string_view fragment, Program& program, std::string_view defines) {
+  return take(name, make_draw_program(name, vertex, fragment, print_log, defines), program);
 }
 
-Outcome make_method_program(std::string_view name, std::string_view compute, Program& program) {
-  return take(name, make_compute_program(name, compute, print_log), program);
+Outcome make_method_program(std::string_view name, std::string_view compute, Program& program,
+                            std::string_view defines) {
+  return take(name, make_compute_program(name, compute, print_log, defines), program);
 }
 
 Outcome make_method_buffer(std::string_view name, GLenum target, std::size_t size_bytes,

@@ -29,11 +29,13 @@ class RasterTarget {
 };
 
 /// Makes a draw program of a method; the compiler's log goes to standard error.
-/// Outcome: gl_shader naming the program.
+/// `defines`: as make_draw_program() takes them. Outcome: gl_shader naming the program.
 Outcome make_method_program(std::string_view name, std::string_view vertex,
-                            std::string_view fragment, Program& program);
+                            std::string_view fragment, Program& program,
+                            std::string_view defines = "");
 /// The same of one compute shader.
-Outcome make_method_program(std::string_view name, std::string_view compute, Program& program);
+Outcome make_method_program(std::string_view name, std::string_view compute, Program& program,
+                            std::string_view defines = "");
 
 /// Makes a buffer; `size_bytes` > 0. Outcome: gl_out_of_memory naming what it is for.
 Outcome make_method_buffer(std::string_view name, GLenum target, std::size_t size_bytes,

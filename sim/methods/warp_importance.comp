@@ -25,7 +25,7 @@ Surface surface_at(vec2 posts) {
   ivec2 cell = ivec2(floor(held_posts(posts)));
   if (level_of(cell, cell + 1, 0) > 0) return coarse_surface(posts);
   ivec2 blocks = textureSize(heights_texture, 0);
-  vec2 texel = vec2(level_texel(cell, 0)) / block_side;
+  vec2 texel = vec2(level_texel(window_here(), cell, 0)) / block_side;
   ivec2 block = ivec2(floor(texel));
   block -= blocks * ivec2(floor(vec2(block) / vec2(blocks)));
   vec4 heights = texelFetch(heights_texture, block, 0);

@@ -37,8 +37,9 @@ void main() {
   if (!(t <= ray_origin.w)) discard;
   ivec2 cell = ivec2(floor(held_posts(at)));
   int level = level_of(cell, cell + 1, 0);
-  Cell c = cell_at(cell, level);
-  vec2 f = (at - vec2(level_low(cell, level))) / float(1 << level);
+  Window w = window_here();
+  Cell c = cell_at(w, cell, level);
+  vec2 f = (at - vec2(level_low(w, cell, level))) / float(1 << level);
   vec2 base = vec2(c.dx + c.dxy * f.y, c.dy + c.dxy * f.x) / float(1 << level);
   vec2 here = turned_back(base * post_step.xy);
   vec2 there = turned_back((base + detail_slope(pixel_posts)) * post_step.xy);

@@ -41,13 +41,14 @@ class LogPlayer {
   int decoded_ = 0;
 };
 
-FrameInput input_of(const OwnshipPose& pose, const GroundCheck& ground, std::int64_t time_ns,
+FrameInput input_of(const OwnshipPose& pose, const GroundWatch& ground, std::int64_t time_ns,
                     const ReplayOptions& options, bool derived) {
-  FrameInput input = frame_input(pose, ground, time_ns);
+  FrameInput input = frame_input(pose, ground.radio, ground.air_ground, time_ns);
   if (pose.heading_source == HeadingSource::heading && options.heading_assumed) {
     add_reason(input.availability, Reason::heading_reference_assumed);
   }
   if (derived) add_reason(input.availability, Reason::attitude_derived);
+  input.display = options.display;
   return input;
 }
 
@@ -133,7 +134,7 @@ Outcome replay(const ReplayOptions& options) {
   const bool derived = is_derived(log);
   LogPlayer player(log, options.bus);
   ReplayReport report;
-  GroundCheck ground;
+  GroundWatch ground;
   ReplayPacing pacing;
   if (Outcome opened = pacing.open(options.pace, options.scene); !opened.ok()) {
     return opened;
@@ -149,8 +150,7 @@ Outcome replay(const ReplayOptions& options) {
     const Picture picture = session.draw(input, want_pixels);
     if (!picture.problem.ok()) return picture.problem;
     if (Outcome ended = pacing.end_frame(index, now_ns, session); !ended.ok()) return ended;
-    // What this frame showed is judged by the next one: the ground below is known once it is drawn.
-    ground = ground_check(ground, pose.radio_height_m, picture.report.over_ground_m, now_ns);
+    ground.take(pose, options.air_ground, picture.report.over_ground_m, now_ns);
     for (const std::string& problem : session.new_problems()) {
       std::fprintf(stderr, "\nridgeline: %s\n", problem.c_str());
     }

@@ -20,6 +20,8 @@ struct ReplayOptions {
   std::string frames_folder, dump_folder, report_file;  ///< empty: not written
   int dump_every = 1;                                   ///< frames
   PaceOptions pace;
+  DisplayState display;                       ///< of every frame
+  AirGround air_ground = AirGround::unknown;  ///< what the switch says, all the time
 };
 
 /// Renders a log. The clock is the log's own time: frame k shows the moment

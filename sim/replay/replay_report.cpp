@@ -12,6 +12,7 @@
 #include "platform/gl_counter.hpp"
 #include "platform/heap_counter.hpp"
 #include "sim/output/percentile.hpp"
+#include "sim/session/display_json.hpp"
 
 namespace ridgeline::sim {
 namespace {
@@ -127,7 +128,7 @@ nlohmann::ordered_json bus_json(const UpdateCounters& c) {
           {"clock_resets", c.clock_resets}};
 }
 
-nlohmann::ordered_json integrity_json(const UpdateCounters& c, const GroundCheck& ground) {
+nlohmann::ordered_json integrity_json(const UpdateCounters& c, const GroundWatch& ground) {
   return {{"disagreements", c.disagreements},
           {"freezes", c.freezes},
           {"outvoted", c.outvoted},
@@ -136,7 +137,8 @@ nlohmann::ordered_json integrity_json(const UpdateCounters& c, const GroundCheck
           {"clock_steps", c.clock_steps},
           {"replay_bursts", c.replay_bursts},
           {"lost_in_sequence", c.lost_in_sequence},
-          {"radio_height_disagreements", ground.disagreements}};
+          {"radio_height_disagreements", ground.radio.disagreements},
+          {"air_ground_disagreements", ground.air_ground.disagreements}};
 }
 
 }  // namespace
@@ -159,6 +161,7 @@ void ReplayReport::add(int index, const Picture& picture) {
   frame["bound_px"] =
       promised ? nlohmann::ordered_json(report.bound_px) : nlohmann::ordered_json(nullptr);
   frame["range_m"] = report.range_m;
+  if (auto display = display_json(report.display); !display.is_null()) frame["display"] = display;
   frame["cpu_ms"] = picture.cpu_ms;
   const auto& ms = picture.counts.pass_ms;
   const double gpu_ms = std::accumulate(ms.begin(), ms.end(), 0.0);
@@ -228,7 +231,7 @@ double ReplayReport::median_cpu_ms() const {
 }
 
 nlohmann::ordered_json ReplayReport::finished(const CandumpLog& log, const OwnshipState& state,
-                                              const GroundCheck& ground, const Session& session,
+                                              const GroundWatch& ground, const Session& session,
                                               const std::string& log_file) const {
   nlohmann::ordered_json json;
   json["log"] = log_file;

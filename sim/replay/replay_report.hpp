@@ -3,12 +3,25 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/monitor/air_ground_check.hpp"
 #include "core/monitor/ground_check.hpp"
 #include "core/state/ownship_state.hpp"
 #include "sim/log/candump_reader.hpp"
 #include "sim/session/session.hpp"
 
 namespace ridgeline::sim {
+
+/// What frames showed of the ground below is judged by the next one: it is known once it is drawn.
+struct GroundWatch {
+  GroundCheck radio;
+  AirGroundCheck air_ground;
+
+  void take(const OwnshipPose& pose, AirGround said, double over_ground_m, std::int64_t time_ns) {
+    radio = ground_check(radio, pose.radio_height_m, over_ground_m, time_ns);
+    const AirGroundFacts facts{said, pose.ground_speed_mps, over_ground_m, false};
+    air_ground = air_ground_check(air_ground, facts, time_ns);
+  }
+};
 
 /// Collects what the frames of a replay say about themselves; the JSON of contract section 4.
 class ReplayReport {
@@ -19,7 +32,7 @@ class ReplayReport {
 
   /// The finished report; `log` and `state` add what the input was like.
   [[nodiscard]] nlohmann::ordered_json finished(const CandumpLog& log, const OwnshipState& state,
-                                                const GroundCheck& ground, const Session& session,
+                                                const GroundWatch& ground, const Session& session,
                                                 const std::string& log_file) const;
 
  private:

@@ -4,6 +4,7 @@
 #include "sim/output/atomic_file.hpp"
 #include "sim/output/image_file.hpp"
 #include "sim/output/npy_file.hpp"
+#include "sim/session/display_json.hpp"
 #include "sim/session/session.hpp"
 
 namespace ridgeline::sim {
@@ -44,12 +45,20 @@ nlohmann::ordered_json frame_json(const Picture& picture, const std::string& geo
   for (const Reason reason : report.availability.reasons) {
     json["reasons"].push_back(reason_word(reason));
   }
+  if (auto display = display_json(report.display); !display.is_null()) json["display"] = display;
   json["crc32"] = crc32_of(picture.rgb);
   json["geoid"] = geoid_name;
   return json;
 }
 
 }  // namespace
+
+nlohmann::ordered_json display_json(const DisplayState& display) {
+  if (display == DisplayState{}) return nullptr;
+  return {{"luminance", display.luminance},
+          {"words_luminance", words_luminance(display)},
+          {"declutter", display.declutter}};
+}
 
 Outcome write_dump(const std::string& folder, int index, const Picture& picture,
                    const std::string& geoid_name) {

@@ -10,6 +10,7 @@
 #include "platform/scene.hpp"
 #include "sim/geotiff/geotiff_reader.hpp"
 #include "sim/methods/method.hpp"
+#include "sim/methods/step_counter.hpp"
 #include "sim/output/outcome.hpp"
 #include "sim/terrain_input/edit_list.hpp"
 
@@ -67,7 +68,12 @@ class Session {
   /// Takes a method in; it stays until the session ends. Draw with it after use().
   Method& keep(std::unique_ptr<Method> method);
   /// Draws with a kept method from now on; null: with the module's own passes again.
-  void use(Method* method) { method_ = method; }
+  /// `bearing`: what those keep from frame to frame, where settings take turns; null: the
+  /// session's.
+  void use(Method* method, BlockBearing* bearing = nullptr) {
+    method_ = method;
+    scene_.use_bearing(bearing);
+  }
   /// Applies edits, settles the terrain window round the eye and builds the method in use from it,
   /// where the window is not the one it was built from. Nothing to do for the module's own passes.
   /// draw() calls it; call it before where its time must not be part of a measurement.
@@ -79,6 +85,12 @@ class Session {
   /// the module's own shading; its window is always settled.
   /// `want_pixels`: read range and colour back (not part of cpu_ms).
   Picture draw(const FrameInput& input, bool want_pixels);
+
+  /// The same in variants of the programs in use that count the steps of rays and planes. The
+  /// picture is the same; not so the time.
+  /// `steps`: nothing where they cannot be counted, and where nothing was drawn.
+  Picture draw_counting(const FrameInput& input, bool want_pixels,
+                        std::optional<StepCounts>& steps);
 
   /// Messages about refused tiles that were not reported yet.
   std::vector<std::string> new_problems() { return scene_.worker().new_problems(); }
@@ -108,6 +120,8 @@ class Session {
   void settle_if_due(const FrameInput& input);
   Outcome open_renderer();
   [[nodiscard]] MethodTerrain method_terrain();
+  Outcome use_counting(bool counting);
+  void warm_up(const FrameInput& input);
 
   /// The state of the terrain window that a method was built from.
   struct WindowState {
@@ -136,6 +150,7 @@ class Session {
   std::vector<std::uint8_t> rgba_;
   std::vector<Kept> methods_;
   Method* method_ = nullptr;  ///< in use
+  StepCounter step_counter_;
   std::vector<float> method_posts_;
   std::optional<WindowState> method_posts_of_;
 };

@@ -52,6 +52,17 @@ MethodTerrain Session::method_terrain() {
           scene_.settings().range_m};
 }
 
+void Session::warm_up(const FrameInput& input) {
+  FrameSettings settings = scene_.settings();
+  settings.pace = nullptr;
+  const auto draw = [](void* method, const RangeScene& scene) {
+    static_cast<Method*>(method)->warm_up(scene);
+  };
+  settings.instead = {draw, method_};
+  FrameReport report = scene_.draw(settings, input);
+  scene_.finish(report);
+}
+
 Outcome Session::prepare(const FrameInput& input) {
   if (method_ == nullptr) return {};
   if (input.availability.mode == Mode::removed || !local_frame(input.eye).ok()) return {};
@@ -68,8 +79,45 @@ Outcome Session::prepare(const FrameInput& input) {
   const double start_ms = now_ms();
   Outcome built = method_->build(terrain, scene_.renderer().sizes());
   kept->build_ms = now_ms() - start_ms;
-  if (built.ok()) kept->built = state;
+  if (!built.ok()) return built;
+  if (!kept->built) warm_up(input);
+  kept->built = state;
   return built;
+}
+
+Outcome Session::use_counting(bool counting) {
+  if (method_ != nullptr) return method_->use_counting(counting);
+  step_counter_.exchange(scene_.renderer());
+  return {};
+}
+
+Picture Session::draw_counting(const FrameInput& input, bool want_pixels,
+                               std::optional<StepCounts>& steps) {
+  const RaySteps rays = method_ == nullptr ? RaySteps::counted : method_->ray_steps();
+  const auto draw_plain = [&](const std::optional<StepCounts>& told) {
+    Picture picture = draw(input, want_pixels);
+    steps = picture.report.availability.mode == Mode::removed ? std::nullopt : told;
+    return picture;
+  };
+  context_->make_current();
+  if (rays == RaySteps::no_rays) return draw_plain(StepCounts{});
+  if (rays == RaySteps::not_counted || !StepCounter::possible()) return draw_plain(std::nullopt);
+  Outcome ready = step_counter_.make(scene_.renderer());
+  if (ready.ok()) ready = prepare(input);
+  if (ready.ok()) ready = use_counting(true);
+  if (!ready.ok()) {
+    Picture none;
+    none.report.availability.mode = Mode::removed;
+    none.problem = ready;
+    return none;
+  }
+  step_counter_.begin();
+  Picture picture = draw_plain(std::nullopt);
+  const StepCounts counted = step_counter_.end();
+  if (picture.report.availability.mode != Mode::removed) steps = counted;
+  const Outcome ended = use_counting(false);
+  RL_ASSERT(ended.ok());
+  return picture;
 }
 
 }  // namespace ridgeline::sim

@@ -2,44 +2,20 @@
 // deadline with sound pictures, and what a real clock decided can be done again exactly.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sim/synthetic/make_demo.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/cli/demo_flight.hpp"
 
 namespace ridgeline::test {
 namespace {
 
 using Json = nlohmann::json;
 
-class Monitor : public testing::Test {
+class Monitor : public DemoFlight {
  protected:
-  static const TemporaryFolder& folder() {
-    static const TemporaryFolder made;
-    static const bool done = sim::make_demo(made.path()).ok();
-    EXPECT_TRUE(done);
-    return made;
-  }
-  static std::vector<std::string> replay(const std::vector<std::string>& more) {
-    std::vector<std::string> all{"replay",    folder().file("demo.log"),
-                                 "--terrain", folder().path(),
-                                 "--size",    "200x160",
-                                 "--range",   "15000",
-                                 "--rate",    "30"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-  static Json report(const std::vector<std::string>& more) {
-    const std::string file = folder().file("report.json");
-    std::vector<std::string> arguments = replay(more);
-    arguments.insert(arguments.end(), {"--report", file});
-    const Ended ended = ridgeline(arguments);
-    EXPECT_EQ(ended.status, 0) << ended.err;
-    return Json::parse(text_of(file));
-  }
+  Monitor() : DemoFlight({"--size", "200x160", "--rate", "30"}) {}
   /// Time of the full picture on the reference machine, ms: of the first drawn frame.
-  static double full_frame_ms(const std::string& error_px) {
+  [[nodiscard]] double full_frame_ms(const std::string& error_px) const {
     const Json json = report({"--from", "10", "--to", "10.5", "--error", error_px, "--monitor",
                               "work", "--deadline-ms", "1000"});
     EXPECT_EQ(json["frames"][5]["budget"]["step"], 0);
@@ -103,10 +79,7 @@ TEST_F(Monitor, counted_work_leaves_the_same_bytes_whatever_the_machine_does) {
   };
   const std::string first = flown("first", ""), second = flown("second", "LP_NUM_THREADS=1");
   EXPECT_EQ(text_of(first + ".decisions"), text_of(second + ".decisions"));
-  for (const auto& entry : std::filesystem::directory_iterator(first)) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(text_of(first + "/" + name), text_of(second + "/" + name)) << name;
-  }
+  EXPECT_GT(same_files(first, second), 0);
 }
 
 TEST_F(Monitor, what_a_real_clock_decided_is_done_again_exactly) {
@@ -126,13 +99,7 @@ TEST_F(Monitor, what_a_real_clock_decided_is_done_again_exactly) {
   const std::string live = flown("live", {"--monitor", "real", "--deadline-ms", "8", "--delay-us",
                                           "300", "--record-decisions", decisions});
   const std::string again = flown("again", {"--decisions", decisions});
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(live)) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(text_of(live + "/" + name), text_of(again + "/" + name)) << name;
-    ++files;
-  }
-  EXPECT_GE(files, 2 * 16);
+  EXPECT_GE(same_files(live, again), 2 * 16);
 }
 
 TEST_F(Monitor, decisions_of_another_run_are_refused_with_file_and_line) {

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sim/synthetic/make_demo.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/cli/demo_flight.hpp"
 
 namespace ridgeline::test {
 namespace {
@@ -20,44 +19,9 @@ std::set<std::string> words_of(const Json& frame) {
   return words;
 }
 
-/// Both folders hold the same files with the same bytes; how many.
-int same_files(const std::string& a, const std::string& b) {
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(a)) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(read_bytes(a + "/" + name), read_bytes(b + "/" + name)) << name;
-    ++count;
-  }
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(b)) --count;
-  EXPECT_EQ(count, 0) << "files in one folder only";
-  return static_cast<int>(std::distance(std::filesystem::directory_iterator(a), {}));
-}
-
-/// The demo land and flight, made once for all tests of this program.
-class Demo : public testing::Test {
+class Demo : public DemoFlight {
  protected:
-  static const TemporaryFolder& folder() {
-    static const TemporaryFolder made;
-    static const bool done = sim::make_demo(made.path()).ok();
-    EXPECT_TRUE(done);
-    return made;
-  }
-  static std::vector<std::string> replay(const std::vector<std::string>& more) {
-    std::vector<std::string> all{"replay",    folder().file("demo.log"),
-                                 "--terrain", folder().path(),
-                                 "--size",    "96x72",
-                                 "--range",   "15000"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-  static Json report(const std::vector<std::string>& more) {
-    const std::string file = folder().file("report.json");
-    std::vector<std::string> arguments = replay(more);
-    arguments.insert(arguments.end(), {"--report", file});
-    const Ended ended = ridgeline(arguments);
-    EXPECT_EQ(ended.status, 0) << ended.err;
-    return Json::parse(text_of(file));
-  }
+  Demo() : DemoFlight({"--size", "96x72"}) {}
 };
 
 TEST_F(Demo, the_same_replay_leaves_the_same_bytes) {
@@ -136,6 +100,19 @@ TEST_F(Demo, the_frame_path_allocates_nothing_after_boot) {
   EXPECT_GT(json["heap_bytes"].get<double>(), 1e6);
   EXPECT_GT(json["gpu_bytes"].get<double>(), 1e6);
   EXPECT_GT(json["mapped_bytes"].get<double>(), 1e6);
+}
+
+TEST_F(Demo, nor_does_it_by_any_other_method) {
+  // From the same frames on: what a driver compiles at the first use of a program counts as well.
+  for (const char* method :
+       {"pgm:grid=64x64", "loffler:grid=64x64", "loffler:grid=64x64,rays=0", "warp:grid=64",
+        "hybrid", "hybrid:t=1e9", "clipmap", "mesh", "raycast"}) {
+    const Json json = report({"--from", "10", "--to", "11", "--rate", "5", "--method", method});
+    EXPECT_EQ(json["frame_count"], 6) << method;
+    EXPECT_EQ(json["removed_frames"], 0) << method;
+    EXPECT_EQ(json["allocations_after_boot"], 0) << method;
+    EXPECT_EQ(json["gl_creations_after_boot"], 0) << method;
+  }
 }
 
 TEST_F(Demo, removed_frames_leave_no_range_file) {

@@ -73,7 +73,7 @@ struct Corners {
 
 TEST(Arithmetic, gap_over_a_cell_is_off_by_5_u_of_its_posts_and_13_u_of_its_relief) {
   ShaderProbe probe(
-      "Cell c = cell_at(ivec2(in_a.xy), 0);"
+      "Cell c = cell_at(window_here(), ivec2(in_a.xy), 0);"
       "out_a.xyz = gap_along(c, in_a.zw, in_b.yz, in_b.x, 0.0, 0.0);");
   Row gap("gap over a cell, of 5 V + 13 W", u), climb("its rate, of 20 W |rate|", u);
   Row whole("gap over whole metres, of 5 V + 7 W", u);
@@ -200,7 +200,7 @@ TEST(Arithmetic, cell_ahead_is_never_more_than_an_edge_early) {
 TEST(Arithmetic, four_posts_are_the_four_posts) {
   // Every post holds its own number; columns that are no power of two; texels before the window's
   // first and behind its last.
-  ShaderProbe probe("out_a = four_posts(ivec2(in_a.xy), 0);");
+  ShaderProbe probe("out_a = four_posts(window_here(), ivec2(in_a.xy), 0);");
   Random random(14);
   for (const int columns : {128, 1344, 2688}) {
     const int rows = 192;

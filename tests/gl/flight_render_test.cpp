@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -56,6 +57,7 @@ class FlightRender : public testing::Test {
     put(BusParameter::gps_latitude, 46.5);
     put(BusParameter::gps_longitude, 8.5);
     put(BusParameter::gps_height, 1500.0);
+    if (speed_mps_ > 0) put(BusParameter::gps_ground_speed, speed_mps_);
     state_.now_ns = now_ns;
     exchange_->ownship.write(state_);
   }
@@ -88,6 +90,7 @@ class FlightRender : public testing::Test {
   std::unique_ptr<Exchange> exchange_ = std::make_unique<Exchange>();
   std::unique_ptr<RenderThread> render_;
   OwnshipState state_;
+  double speed_mps_ = 0;  ///< 0: the bus says none
 };
 
 TEST_F(FlightRender, a_frame_proves_itself_and_keeps_its_promise) {
@@ -178,6 +181,84 @@ TEST_F(FlightRender, the_status_report_counts_what_integrity_found) {
   EXPECT_EQ(status["integrity"]["freezes"], 3);
   EXPECT_EQ(status["integrity"]["disagreements"], 7);
   EXPECT_EQ(status["integrity"]["outvoted"], 0);
+}
+
+/// The levels that the supervisor passes on, as it does after debouncing.
+TEST_F(FlightRender, the_night_and_declutter_lines_reach_the_picture_and_the_report) {
+  config_.picture.night_luminance = 0.2;
+  boot();
+  fly_until_drawn();
+  const auto picture = [&] {
+    fly();
+    std::vector<std::uint8_t> rgba(4 * render_->scene().pixels());
+    render_->scene().read_colour(rgba);
+    return rgba;
+  };
+  const auto day = picture();
+  EXPECT_EQ(status_now()["display"]["luminance"], 1.0);
+  exchange_->night = true;
+  const auto night = picture();
+  const double factor = std::pow(0.2, 1.0 / 2.2);
+  for (std::size_t k = 0; k < day.size(); ++k) {
+    ASSERT_NEAR(night[k], k % 4 == 3 ? 255 : factor * day[k], 1.5) << k;
+  }
+  EXPECT_EQ(status_now()["display"]["luminance"], 0.2);
+  EXPECT_EQ(status_now()["display"]["declutter"], false);
+  EXPECT_EQ(render_->fact().availability.mode, Mode::svs) << "a switch is no reason";
+  exchange_->night = false;
+  exchange_->declutter = true;
+  const auto fewer = picture();
+  EXPECT_NE(fewer, day);
+  EXPECT_EQ(status_now()["display"]["declutter"], true);
+  EXPECT_EQ(status_now()["monitor"]["sheds"], 0) << "the pilot took it away, not the monitor";
+  exchange_->declutter = false;
+  EXPECT_EQ(picture(), day) << "and everything comes back";
+}
+
+TEST_F(FlightRender, a_dimmed_last_frame_says_so_and_is_judged_as_any_other) {
+  boot();
+  exchange_->night = true;
+  exchange_->declutter = true;
+  fly_until_drawn();
+  render_->dump();
+  ASSERT_EQ(render_->dump_problem(), "");
+  std::ifstream stream(folder_.file("last") + "/000000.json");
+  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  EXPECT_EQ(json["display"]["luminance"], limits::default_night_luminance);
+  EXPECT_EQ(json["display"]["declutter"], true);
+  const std::string verify = std::string(RIDGELINE_PROGRAM) + " verify " + folder_.file("last") +
+                             " --terrain " + folder_.file("tiles") + " --pixels all";
+  EXPECT_EQ(std::system(verify.c_str()), 0);
+}
+
+/// 1500 m over the ellipsoid, over hills of at most 1100 m.
+TEST_F(FlightRender, wheels_on_the_ground_in_flight_are_told_counted_and_take_no_picture_away) {
+  boot();
+  speed_mps_ = 60.0;
+  fly_until_drawn();
+  const auto told = [&] {
+    const auto reasons = render_->fact().availability.reasons.view();
+    return std::find(reasons.begin(), reasons.end(), Reason::air_ground_disagrees) != reasons.end();
+  };
+  const auto fly_for = [&](std::int64_t time_ns) {
+    for (const std::int64_t end_ns = monotonic_now_ns() + time_ns; monotonic_now_ns() < end_ns;) {
+      fly();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  fly_for(limits::flight_ns + 500 * limits::ms_ns);
+  EXPECT_FALSE(told()) << "no switch is connected";
+  exchange_->air_ground = AirGround::ground;
+  fly_for(limits::flight_ns + 500 * limits::ms_ns);
+  EXPECT_TRUE(told());
+  EXPECT_EQ(render_->fact().availability.mode, Mode::degraded);
+  EXPECT_TRUE(render_->fact().proof.bound_computed);
+  EXPECT_EQ(status_now()["integrity"]["air_ground_disagreements"], 1);
+  EXPECT_EQ(status_now()["display"]["air_ground"], "ground");
+  exchange_->air_ground = AirGround::air;
+  fly_for(limits::agree_again_ns + 500 * limits::ms_ns);
+  EXPECT_FALSE(told());
+  EXPECT_EQ(status_now()["display"]["air_ground"], "air");
 }
 
 TEST_F(FlightRender, a_lost_context_ends_the_program_and_shows_the_failure_picture) {

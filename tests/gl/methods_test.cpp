@@ -1,9 +1,11 @@
 // Methods beside ours: what a session does with them, and mesh and Embree judged by the oracle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/bench/bench_judge.hpp"
+#include "sim/bench/bench_method.hpp"
 #include "tests/gl/scene.hpp"
 
 namespace ridgeline::test {
@@ -175,6 +177,44 @@ TEST(Methods, leave_nothing_behind_in_the_frames_of_the_module) {
     scene->session().use(nullptr);
     const sim::Picture after = scene->draw(along);
     EXPECT_EQ(before.rgb, after.rgb) << name;
+  }
+}
+
+TEST(BenchMethods, in_turn_each_bound_keeps_what_its_blocks_bear) {
+  const Flat land(plane_m);
+  Scene scene(land, image, 1.0, range_m, down.eye);
+  std::vector<sim::MethodSpec> specs;
+  ASSERT_TRUE(sim::parse_methods("ridgeline:error=1,ridgeline:error=8,mesh", specs).ok());
+  std::vector<sim::BenchMethod> methods;
+  std::vector<sim::AbsentMethod> absent;
+  ASSERT_TRUE(sim::make_bench_methods(specs, false, scene.session(), methods, absent).ok());
+  ASSERT_EQ(methods.size(), 3U);
+  EXPECT_EQ(methods[2].bearing, nullptr);
+  const auto draw_all = [&] {
+    for (const sim::BenchMethod& method : methods) {
+      scene.settings() = method.settings;
+      scene.session().use(method.method, method.bearing.get());
+      const sim::Picture picture = scene.draw(along);
+      EXPECT_TRUE(picture.problem.ok());
+      if (method.method == nullptr) {
+        EXPECT_LT(picture.report.rays, image.width_px * image.height_px);
+      }
+    }
+  };
+  draw_all();
+  const BlockBearing first = *methods[0].bearing, second = *methods[1].bearing;
+  const auto asked = [](const BlockBearing& bearing) {
+    return std::count_if(bearing.steepest.begin(), bearing.steepest.end(),
+                         [](float slope) { return slope >= 0; });
+  };
+  EXPECT_GT(asked(first), 0);
+  EXPECT_GT(asked(second), 0);
+  EXPECT_LT(first.reach_px, second.reach_px);
+  draw_all();
+  for (const auto& [before, after] : {std::pair(&first, methods[0].bearing.get()),
+                                      std::pair(&second, methods[1].bearing.get())}) {
+    EXPECT_EQ(before->reach_px, after->reach_px);
+    EXPECT_EQ(before->steepest, after->steepest);
   }
 }
 

@@ -20,6 +20,18 @@ void cut(std::string& text, std::string_view what) {
   text.erase(at, what.size());
 }
 
+/// Members of uniform blocks that reach the pass as inputs are read from the blocks again.
+void take_from_blocks(std::string& text) {
+  const std::string_view sent = "uniform_", declared = "flat in ";
+  for (std::size_t at = text.find(sent); at != std::string::npos; at = text.find(sent, at)) {
+    text.erase(at, sent.size());
+  }
+  for (std::size_t at = text.find(declared); at != std::string::npos;
+       at = text.find(declared, at)) {
+    text.erase(at, text.find(';', at) + 1 - at);
+  }
+}
+
 /// The pass as a compute shader: its functions, none of its inputs and outputs.
 std::string source_of(std::string_view body) {
   std::string text(shader::ray_cast_frag);
@@ -27,7 +39,7 @@ std::string source_of(std::string_view body) {
   if (end == std::string::npos) give_up("the ray cast pass has no main()");
   text.resize(end);
   cut(text, "layout(location = 0) out highp uint range_bits;");
-  cut(text, "flat in highp ivec4 tile;");
+  take_from_blocks(text);
   const std::string_view head = "precision highp int;\n";
   const std::size_t after = text.find(head);
   if (after == std::string::npos) give_up("the ray cast pass has no precision line");
@@ -84,6 +96,7 @@ const char* ShaderProbe::driver() {
 }
 
 void ShaderProbe::set_blocks(const FrameBlocks& blocks) {
+  shown_ = blocks;
   put(frame_, blocks.frame, shader::frame_block_binding);
   put(grid_, blocks.grid, shader::grid_block_binding);
 }
@@ -105,6 +118,9 @@ void ShaderProbe::set_posts(const ProbePosts& posts) {
 }
 
 void ShaderProbe::number_nodes(int planes, int rows) {
+  shown_.frame.ray_target.z = 1.0F / static_cast<float>(planes);
+  shown_.frame.ray_target.w = 1.0F / static_cast<float>(rows);
+  set_blocks(shown_);
   std::vector<float> numbers(static_cast<std::size_t>(planes) * static_cast<std::size_t>(rows));
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(i);
   nodes_ = taken(make_texture(GL_R32F, planes, rows, 1, 4));

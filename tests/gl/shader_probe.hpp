@@ -29,7 +29,7 @@ class ShaderProbe {
   void set_blocks(const FrameBlocks& blocks);
   void set_posts(const ProbePosts& posts);
   /// Node (plane, row) holds `plane + row * planes`: what proven_empty() returns then names it.
-  /// Domain: planes * rows < 2^24.
+  /// Domain: planes * rows < 2^24; after set_blocks().
   void number_nodes(int planes, int rows);
 
   struct Call {
@@ -42,6 +42,7 @@ class ShaderProbe {
 
  private:
   Program program_;
+  FrameBlocks shown_;
   Buffer frame_, grid_;
   Texture posts_, nodes_;
 };

@@ -30,8 +30,7 @@ const std::vector<HarmlessMutant>& harmless_mutants() {
        "km, an angle of 1.66e-6 rad, less anywhere nearer. With it the rows of section 4 sum to "
        "4.66e-6 + 0.75e-6 S, which is 4.72e-6 sqrt(1 + S S) at most (test "
        "HarmlessReasons.swell_is_less_than_1_7e_6_rad)."},
-      {{"sweep_without_swell", "shaders/sweep.comp",
-        "(abs(tolerance.y) + abs(tolerance.w)) * u * u * u * 1.2;", "0.0;",
+      {{"sweep_without_swell", "shaders/sweep.comp", "swell * u * u * u * 1.2;", "0.0;",
         "the grid does not allow for the swell", "long_view"},
        "A node is passed only if it stays under the ray but for the swell: what a pixel then "
        "misses "

@@ -24,6 +24,7 @@ using rig::within;
 
 // Lines of the simulated chip, by their place.
 constexpr int heartbeat = 0, svs_valid = 1, svs_fail = 2, display_on = 3;
+constexpr int declutter = 4, night = 5, on_ground = 6;
 // An emulated machine on a busy one: nothing here is about how long things take.
 constexpr int boot_s = 600, soon_s = 60;
 
@@ -58,6 +59,11 @@ class Installation {
         "tiles", "rig0", "rig-beat");
   }
 
+  void report_every(int seconds) {
+    report_s_ = seconds;
+    configure("tiles", "rig0", "rig-beat");
+  }
+
   [[nodiscard]] std::vector<std::string> program() const {
     return {DISPLAY_PROGRAM, folder_.file("rig.toml")};
   }
@@ -81,9 +87,11 @@ class Installation {
         << "heading_reference = \"unknown\"\nnode_id = 12\n"
         << "[lines]\nheartbeat = \"" << beat << "\"\nsvs_valid = \"rig-valid\"\n"
         << "svs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n"
-        << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = 1\n"
+        << "declutter = \"rig-decl\"\nnight = \"rig-night\"\non_ground = \"rig-ground\"\n"
+        << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = " << report_s_ << "\n"
         << "last_frame_folder = \"last\"\n";
   }
+  int report_s_ = 1;
   static double hills(double latitude_deg, double longitude_deg) {
     return 800.0 + 300.0 * std::sin(latitude_deg * 400.0) * std::cos(longitude_deg * 300.0);
   }
@@ -176,6 +184,54 @@ TEST_F(RigDisplay, a_flight_on_the_bus_is_drawn_and_a_silent_bus_is_not) {
                          " --terrain " + installed_.file("tiles") + " --pixels all"))
       << "the last frame must keep its promise";
   std::cout << status.dump(1) << "\n" << program.told();
+}
+
+TEST_F(RigDisplay, switches_change_the_picture_and_the_report_says_so) {
+  chip_.pull(display_on, true);
+  Process program(installed_.program(), installed_.file("errors"));
+  ASSERT_TRUE(booted(program)) << program.told();
+  Process player(installed_.player(), installed_.file("player"));
+  ASSERT_TRUE(lines_say(true, false)) << program.told();
+  const auto display_says = [&](double luminance, bool fewer, const char* wheels) {
+    return within(soon_s, [&] {
+      const nlohmann::json status = installed_.status();
+      return status.is_object() && status["display"]["luminance"] == luminance &&
+             status["display"]["declutter"] == fewer && status["display"]["air_ground"] == wheels;
+    });
+  };
+  EXPECT_TRUE(display_says(1.0, false, "air"));
+  chip_.pull(night, true);
+  EXPECT_TRUE(display_says(0.15, false, "air"));
+  chip_.pull(declutter, true);
+  chip_.pull(on_ground, true);
+  EXPECT_TRUE(display_says(0.15, true, "ground"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.status(soon_s), 0) << program.told();
+  EXPECT_EQ(program.times_told("night: switched on"), 1) << program.told();
+  std::ifstream stream(installed_.file("last") + "/000000.json");
+  const nlohmann::json last = nlohmann::json::parse(stream, nullptr, false);
+  EXPECT_EQ(last["display"]["luminance"], 0.15);
+  EXPECT_EQ(last["display"]["declutter"], true);
+}
+
+/// SIGUSR1 asks for a report at once, where no interval gives one.
+TEST_F(RigDisplay, a_report_is_written_when_it_is_asked_for) {
+  installed_.report_every(0);
+  Process program(installed_.program(), installed_.file("errors"));
+  ASSERT_TRUE(booted(program)) << program.told();
+  EXPECT_FALSE(std::filesystem::exists(installed_.file("status.json")));
+  program.signal(SIGUSR1);
+  ASSERT_TRUE(within(soon_s, [&] { return installed_.status().is_object(); })) << program.told();
+  const nlohmann::json first = installed_.status();
+  EXPECT_EQ(first["state"], "running");
+  program.signal(SIGUSR1);
+  EXPECT_TRUE(within(soon_s, [&] {
+    const nlohmann::json next = installed_.status();
+    return next.is_object() && next["up_s"] > first["up_s"];
+  }));
+  EXPECT_TRUE(program.runs()) << "a question does not end the flight";
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.status(soon_s), 0) << program.told();
 }
 
 TEST_F(RigDisplay, a_chip_lost_in_flight_stops_the_heartbeat_and_the_flight_goes_on) {

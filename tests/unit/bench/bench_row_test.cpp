@@ -37,7 +37,7 @@ BenchResult result_of_two() {
   result.rows.back().bound_px = 1.25;
   result.rows.back().epsilon_px = 1.0;
   result.rows.push_back(row_of("mesh", "all", {30}, {0.25}));
-  result.rows.back().steps = {2, 4};
+  result.rows.back().steps = {{1, 0.5, 0.25}, {2, 1.5, 0.75}};
   result.absent.push_back({"embree", "it is absent"});
   return result;
 }
@@ -76,7 +76,7 @@ TEST(BenchRow, nothing_measured_is_nothing_and_not_a_division_by_zero) {
   const BenchRow row;
   EXPECT_EQ(row.median_ms(), 0);
   EXPECT_EQ(row.median_gpu_ms(), std::nullopt);
-  EXPECT_EQ(row.mean_steps(), std::nullopt);
+  EXPECT_FALSE(row.mean_steps().has_value());
   EXPECT_EQ(row.error.mean_px(), 0);
   EXPECT_EQ(row.error.percent_over_px(1.0), 0);
 }
@@ -85,12 +85,29 @@ TEST(BenchJson, has_every_key_of_the_contract_in_every_row) {
   const auto json = nlohmann::json::parse(bench_json(result_of_two()));
   ASSERT_EQ(json["rows"].size(), 4U);
   for (const auto& row : json["rows"]) {
-    for (const char* key :
-         {"method",          "params",       "terrain",          "view",
-          "epsilon_px",      "bound_px",     "frame_ms_median",  "frame_ms_p99",
-          "frame_ms_max",    "core_ms",      "gpu_ms",           "error_px_max",
-          "error_px_mean",   "error_px_p99", "percent_over_1px", "wrong_class_pixels",
-          "steps_per_pixel", "gpu_bytes",    "heap_bytes",       "build_ms"}) {
+    for (const char* key : {"method",
+                            "params",
+                            "terrain",
+                            "view",
+                            "epsilon_px",
+                            "bound_px",
+                            "frame_ms_median",
+                            "frame_ms_p99",
+                            "frame_ms_max",
+                            "core_ms",
+                            "gpu_ms",
+                            "error_px_max",
+                            "error_px_mean",
+                            "error_px_p99",
+                            "percent_over_1px",
+                            "wrong_class_pixels",
+                            "steps_per_pixel",
+                            "gpu_bytes",
+                            "heap_bytes",
+                            "build_ms",
+                            "nodes_per_pixel",
+                            "cells_per_pixel",
+                            "grid_nodes_per_pixel"}) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
   }
@@ -106,7 +123,22 @@ TEST(BenchJson, has_every_key_of_the_contract_in_every_row) {
   EXPECT_TRUE(mesh["bound_px"].is_null());
   EXPECT_TRUE(mesh["epsilon_px"].is_null());
   EXPECT_EQ(mesh["steps_per_pixel"], 3.0);
+  EXPECT_EQ(mesh["nodes_per_pixel"], 1.5);
+  EXPECT_EQ(mesh["cells_per_pixel"], 1.0);
+  EXPECT_EQ(mesh["grid_nodes_per_pixel"], 0.5);
   EXPECT_EQ(json["absent"][0]["spec"], "embree");
+}
+
+TEST(BenchTable, tells_steps_apart_from_none_and_from_those_nobody_counted) {
+  BenchResult result = result_of_two();
+  const auto has = [&](const std::string& words) {
+    return bench_markdown(result).find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(has("| 2.00 + 1.00 |"));
+  EXPECT_TRUE(has("| not counted |"));
+  EXPECT_FALSE(has("| 0 | 0.0 |"));
+  result.rows.back().steps = {{}, {}};
+  EXPECT_TRUE(has("| 0 | 0.0 |"));  // before GPU bytes
 }
 
 TEST(BenchTable, every_line_has_as_many_cells_as_its_head) {

@@ -1,38 +1,22 @@
 // The map of Puget Sound: read, placed and written as it says.
 #include "sim/bench/puget_map.hpp"
 
-#include <gdal.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sim/bench/bench.hpp"
 #include "tests/oracle/tile_files.hpp"
+#include "tests/support/grey_png_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace ridgeline::sim {
 namespace {
 
-/// A PNG of this many columns and rows; value(column, row from the north).
-template <typename Value>
 std::string write_png(const test::TemporaryFolder& folder, const char* name, int columns, int rows,
-                      GDALDataType type, const Value& value) {
-  GDALAllRegister();
-  const GDALDatasetH memory =
-      GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 1, type, nullptr);
-  std::vector<double> line(static_cast<std::size_t>(columns));
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) line[static_cast<std::size_t>(c)] = value(c, r);
-    EXPECT_EQ(GDALRasterIO(GDALGetRasterBand(memory, 1), GF_Write, 0, r, columns, 1, line.data(),
-                           columns, 1, GDT_Float64, 0, 0),
-              CE_None);
-  }
+                      int bits, const std::function<double(int, int)>& value) {
   const std::string file = folder.file(name);
-  const GDALDatasetH png = GDALCreateCopy(GDALGetDriverByName("PNG"), file.c_str(), memory, 0,
-                                          nullptr, nullptr, nullptr);
-  EXPECT_NE(png, nullptr);
-  GDALClose(png);
-  GDALClose(memory);
+  test::write_grey_png(file, columns, rows, bits, value);
   return file;
 }
 
@@ -41,7 +25,7 @@ int some_value(int column, int row) {
 }
 
 PugetMap map_of(const test::TemporaryFolder& folder, int posts) {
-  const std::string file = write_png(folder, "map.png", posts, posts, GDT_UInt16, some_value);
+  const std::string file = write_png(folder, "map.png", posts, posts, 16, some_value);
   PugetMap map;
   const Outcome read = read_puget(file, map);
   EXPECT_TRUE(read.ok()) << read.message;
@@ -98,9 +82,9 @@ TEST(PugetMap, what_is_no_such_picture_is_refused_by_name) {
   const test::TemporaryFolder folder;
   const std::pair<std::string, const char*> wrong[] = {
       {folder.file("none.png"), "no such file"},
-      {write_png(folder, "oblong.png", 80, 70, GDT_UInt16, some_value), "square"},
-      {write_png(folder, "small.png", 32, 32, GDT_UInt16, some_value), "square"},
-      {write_png(folder, "bytes.png", 65, 65, GDT_Byte, [](int, int) { return 7; }), "16-bit"}};
+      {write_png(folder, "oblong.png", 80, 70, 16, some_value), "square"},
+      {write_png(folder, "small.png", 32, 32, 16, some_value), "square"},
+      {write_png(folder, "bytes.png", 65, 65, 8, [](int, int) { return 7; }), "16-bit"}};
   for (const auto& [file, word] : wrong) {
     PugetMap map;
     const Outcome read = read_puget(file, map);
@@ -115,7 +99,7 @@ TEST(PugetViews, see_nothing_beyond_the_map) {
   const PugetMap map = map_of(folder, 1025);
   const std::vector<BenchView> views = puget_views(map, 16);
   ASSERT_EQ(views.size(), 16U);
-  constexpr double range_m = 50'000;
+  constexpr double range_m = puget_range_m;
   for (const BenchView& view : views) {
     const GeodeticPosition& eye = view.input.eye;
     const double north_m = (map.north_deg - eye.latitude_deg) * 111'100;

@@ -102,6 +102,21 @@ TEST_F(ConfigFile, the_monitor_keeps_the_period_unless_told_otherwise) {
   EXPECT_EQ(budget_settings(loaded()).most_px, 4.0);
 }
 
+TEST_F(ConfigFile, the_night_has_a_level_and_the_wheels_a_rule) {
+  write(required());
+  EXPECT_EQ(loaded().picture.night_luminance, limits::default_night_luminance);
+  EXPECT_FALSE(loaded().lines.can_hover);
+  Values values = required();
+  values["picture"]["night_luminance"] = "0.05";
+  values["lines"]["can_hover"] = "true";
+  write(values);
+  EXPECT_EQ(loaded().picture.night_luminance, 0.05);
+  EXPECT_TRUE(loaded().lines.can_hover);
+  values["picture"]["night_luminance"] = "0";
+  write(values);
+  expect_refused("picture.night_luminance", "is not a number from 0.05 to 1");
+}
+
 /// No configuration that is accepted meets a limit of the monitor in flight.
 TEST_F(ConfigFile, every_rate_gives_a_deadline_that_the_monitor_takes) {
   for (const char* rate_hz : {"0.1", "120"}) {

@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "platform/display/flight_log.hpp"
 #include "platform/display/json_text.hpp"
+#include "platform/display/log_thread.hpp"
 #include "platform/heap_counter.hpp"
+#include "platform/real_time.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace ridgeline {
 namespace {
@@ -44,6 +48,35 @@ TEST(FlightLog, a_full_ring_drops_and_counts_and_a_long_text_is_cut) {
   while (log.pop(record)) ++lines;
   EXPECT_EQ(lines, 128);
   EXPECT_LT(line_of(record, true).size(), 256u);
+}
+
+/// What SIGUSR1 asks for; the signal itself is rig.display's.
+TEST(StatusFile, is_written_once_for_each_time_it_is_asked_for) {
+  const test::ScratchFolder folder("status_file");
+  DisplayConfig config;
+  config.report.status_file = folder.file("status.json");
+  config.report.status_interval_s = 0;
+  const auto exchange = std::make_unique<Exchange>();
+  const auto log = std::make_unique<LogThread>(config, *exchange);
+  const auto round = [&] {
+    std::filesystem::remove(config.report.status_file);
+    const HeapSection section;
+    log->round(monotonic_now_ns());
+  };
+  const auto is_there = [&] { return std::filesystem::exists(config.report.status_file); };
+  round();
+  EXPECT_FALSE(is_there()) << "nobody asked";
+  for (int asked = 0; asked < 2; ++asked) {
+    exchange->want_status = true;
+    round();
+    ASSERT_TRUE(is_there());
+    const auto bytes = test::bytes_of(config.report.status_file);
+    const std::string text(bytes.begin(), bytes.end());
+    EXPECT_NE(text.find("\"state\": \"running\""), std::string::npos) << text.substr(0, 80);
+    round();
+    EXPECT_FALSE(is_there()) << "one report for one question";
+  }
+  EXPECT_FALSE(std::filesystem::exists(config.report.status_file + ".new"));
 }
 
 TEST(JsonText, objects_and_lists_nest_and_texts_are_escaped) {

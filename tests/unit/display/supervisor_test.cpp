@@ -71,6 +71,14 @@ TEST_F(SupervisorTest, proven_frames_move_the_heartbeat_and_say_valid) {
   EXPECT_FALSE(status().outputs[fail]);
 }
 
+TEST_F(SupervisorTest, without_switches_it_is_day_with_everything_and_nobody_knows_of_wheels) {
+  supervisor_->round(10 * ms);
+  EXPECT_TRUE(exchange_->display_on);
+  EXPECT_FALSE(exchange_->night);
+  EXPECT_FALSE(exchange_->declutter);
+  EXPECT_EQ(exchange_->air_ground.load(), AirGround::unknown);
+}
+
 TEST_F(SupervisorTest, a_hung_renderer_ends_the_heartbeat_and_fails_after_its_time) {
   frame(33 * ms);
   const std::uint64_t edges = status().heartbeat.edges;
