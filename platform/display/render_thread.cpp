@@ -92,6 +92,9 @@ std::string RenderThread::boot() {
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.image.width_px, frame.image.height_px, GL_RGBA,
                   GL_UNSIGNED_BYTE, rgba_.data());
   glBindTexture(GL_TEXTURE_2D, 0);
+  // A driver compiles what carries a picture to the screen at its first use, which belongs to boot.
+  // A screen that refuses it is told in flight.
+  static_cast<void>(screen_->present(blank_.name()));
   if (!config_.report.last_frame_folder.empty()) range_m_.resize(scene_->pixels());
   scene_->open_terrain();
   return {};

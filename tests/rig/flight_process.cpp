@@ -26,9 +26,13 @@ Process::Process(const std::vector<std::string>& command, const std::string& err
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
+  // Before the fork, so that nobody reads what an earlier program has told.
+  const int file = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   id_ = ::fork();
-  if (id_ != 0) return;
-  const int file = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (id_ != 0) {
+    ::close(file);
+    return;
+  }
   ::dup2(file, STDERR_FILENO);
   ::execvp(words[0], words.data());
   ::_exit(127);

@@ -20,6 +20,7 @@ class Process {
   ~Process();
 
   void signal(int number) const;
+  [[nodiscard]] pid_t id() const { return id_; }
   [[nodiscard]] bool runs();
   /// Waits for its end; exit status, -1 after a signal or when it takes too long.
   int status(int seconds);

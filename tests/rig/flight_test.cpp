@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "config/limits_bus.hpp"
 #include "core/bus/can_filters.hpp"
 #include "core/state/ownship_update.hpp"
 #include "platform/can_socket.hpp"
@@ -18,6 +20,7 @@ namespace ridgeline {
 namespace {
 
 constexpr int flight_samples = 8 * sim::flight_ticks_per_second;
+constexpr std::int64_t most_delay_ns = limits::double_pair_limit_ns - 2 * limits::ms_ns;
 
 std::string write_log(const test::ScratchFolder& folder) {
   std::vector<sim::FlightSample> flight =
@@ -28,6 +31,17 @@ std::string write_log(const test::ScratchFolder& folder) {
   gaps.attitude_to_s = 5.0;
   std::ofstream(folder.file("flight.log")) << sim::bus_log(flight, gaps);
   return folder.file("flight.log");
+}
+
+/// How much later a frame came after the one before it than the log says; the worst of all.
+std::int64_t worst_delay_ns(const std::vector<BusFrame>& logged,
+                            const std::vector<ReceivedFrame>& live) {
+  std::int64_t worst_ns = 0;
+  for (std::size_t i = 1; i < live.size() && i < logged.size(); ++i) {
+    const std::int64_t said_ns = logged[i].time_ns - logged[i - 1].time_ns;
+    worst_ns = std::max(worst_ns, live[i].monotonic_ns - live[i - 1].monotonic_ns - said_ns);
+  }
+  return worst_ns;
 }
 
 /// Everything that is received while canplayer plays a log in its own time.
@@ -73,7 +87,12 @@ TEST(RigFlight, a_log_played_onto_the_bus_gives_the_states_of_its_replay) {
   ASSERT_TRUE(can.ok()) << fault_text(can.fault());
 
   const std::vector<BusFrame>& logged = replayed.value().frames;
-  const std::vector<ReceivedFrame> live = flown(can.value(), log, logged.size());
+  // Halves of a value that a busy machine played further apart than they may be are none, live.
+  std::vector<ReceivedFrame> live = flown(can.value(), log, logged.size());
+  for (int again = 0; again < 4 && worst_delay_ns(logged, live) > most_delay_ns; ++again) {
+    live = flown(can.value(), log, logged.size());
+  }
+  ASSERT_LE(worst_delay_ns(logged, live), most_delay_ns) << "this machine plays no log in its time";
   ASSERT_EQ(live.size(), logged.size());
   ASSERT_EQ(can.value().received().dropped, 0u);
   OwnshipState from_log, from_bus;

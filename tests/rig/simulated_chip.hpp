@@ -44,10 +44,14 @@ class SimulatedChip {
   void pull(int line, bool up) {
     put(lines_ / ("sim_gpio" + std::to_string(line)) / "pull", up ? "pull-up" : "pull-down");
   }
-  [[nodiscard]] bool value(int line) const {
-    return text_of(lines_ / ("sim_gpio" + std::to_string(line)) / "value") == "1";
+  [[nodiscard]] bool value(int line) const { return text_of(value_file(line)) == "1"; }
+  /// What a line is at, as the kernel tells it: "0" or "1".
+  [[nodiscard]] fs::path value_file(int line) const {
+    return lines_ / ("sim_gpio" + std::to_string(line)) / "value";
   }
 
+  /// Lines by their place.
+  enum Place { heartbeat, svs_valid, svs_fail, display_on, declutter, night, on_ground };
   static constexpr const char* names[] = {"rig-beat", "rig-valid", "rig-fail",  "rig-on",
                                           "rig-decl", "rig-night", "rig-ground"};
 
