@@ -10,6 +10,9 @@ namespace {
 
 // Places this close outside the edge of a grid count as on it: 0.1 mm, the rounding of a header.
 constexpr double edge_deg = 1e-9;
+// A grid closes round the Earth when its steps add up to 360 degrees and less than this share of a
+// step more, which a header with few digits makes of them.
+constexpr double closing_share = 1e-3;
 constexpr double unknown_m = std::numeric_limits<double>::quiet_NaN();
 
 double post_m(const GeoidGrid& grid, int row, int column) {
@@ -33,7 +36,9 @@ double undulation_m(const GeoidGrid& grid, double latitude_deg, double longitude
   double east_offset_deg = std::fmod(longitude_deg - grid.west_deg, 360.0);
   if (east_offset_deg < 0) east_offset_deg += 360.0;
   if (east_offset_deg >= 360.0 - edge_deg) east_offset_deg = 0.0;
-  const bool wraps = grid.columns * grid.longitude_step_deg > 360.0 - edge_deg;
+  // Only where the last post is one step west of the first: between others there is no cell.
+  const double excess_deg = grid.columns * grid.longitude_step_deg - 360.0;
+  const bool wraps = excess_deg > -edge_deg && excess_deg < closing_share * grid.longitude_step_deg;
   const double width_deg = (grid.columns - 1) * grid.longitude_step_deg;
   if (!wraps && east_offset_deg > width_deg + edge_deg) return unknown_m;
   const double last_cell = wraps ? grid.columns - 1.0 : grid.columns - 2.0;

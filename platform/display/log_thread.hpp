@@ -34,7 +34,6 @@ class LogThread {
   bool for_journal_;
   std::string new_file_;  ///< written first, then put in place of the old report
   std::int64_t next_report_ns_ = 0;
-  std::uint64_t dropped_told_ = 0;
   StatusSources sources_;
   JsonText json_;
 };

@@ -46,7 +46,7 @@ PgmHeader pgm_header(const std::string& file, const std::string& bytes) {
   }
   in >> header.columns >> header.rows >> header.largest;
   if (!in || std::isnan(header.offset_m) || std::isnan(header.scale_m) || header.columns < 2 ||
-      header.rows < 3 || header.largest != 65535) {
+      header.rows < 2 || header.largest != 65535) {
     throw InputError(file, "geoid PGM header is corrupt");
   }
   header.data_at = static_cast<std::size_t>(in.tellg()) + 1;
@@ -128,7 +128,8 @@ double Geoid::node(int row, int column) const {
 GeoidPatch Geoid::patch(double lat_deg, double lon_deg) const {
   GeoidPatch patch;
   if (is_none()) return patch;
-  const bool wraps = std::abs(columns_ * lon_step_deg_ - 360.0) < 0.5 * lon_step_deg_;
+  const double beyond_deg = columns_ * lon_step_deg_ - 360.0;
+  const bool wraps = beyond_deg > -1e-9 && beyond_deg < 1e-3 * lon_step_deg_;
   // Held within the grid before they become whole numbers: a header may give any step.
   const int row = static_cast<int>(
       std::clamp(std::floor((lat_deg - south_deg_) / lat_step_deg_), 0.0, rows_ - 2.0));

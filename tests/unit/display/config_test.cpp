@@ -220,6 +220,18 @@ TEST_F(ConfigFile, a_line_feed_in_a_name_does_not_reach_the_message) {
   EXPECT_EQ(config.problem().message, path_ + ":1: a??b: there is no such section");
 }
 
+/// Found by fuzzing (2026-11-26): undefined behaviour of toml++ at a letter where a key begins.
+TEST_F(ConfigFile, letters_outside_ascii_are_refused_in_keys_and_taken_in_texts) {
+  for (const char* letter : {"\u010a", "\u00e4", "\u0416", "\ufefa"}) {
+    write_text("[picture]\nwidth_px = 640\n" + std::string(letter) + " = 1\n");
+    EXPECT_EQ(load().problem().message.rfind(path_ + ":3: ", 0), 0u) << load().problem().message;
+  }
+  Values values = required();
+  values["terrain"]["folder"] = "\"Gel\u00e4nde\"  # \u010a";
+  write(values);
+  EXPECT_TRUE(loaded().terrain.folder.ends_with("Gel\u00e4nde"));
+}
+
 TEST_F(ConfigFile, what_is_no_toml_is_refused_with_its_line) {
   write_text("[picture]\nwidth_px = 640\nheight_px = = 3\n");
   EXPECT_EQ(load().problem().message.rfind(path_ + ":3: ", 0), 0u) << load().problem().message;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -55,6 +56,22 @@ TEST(Geoid, outside_the_grid_is_unknown) {
   EXPECT_TRUE(std::isnan(undulation_m(region, 46.5, 7.9999)));
   EXPECT_TRUE(std::isnan(undulation_m(region, 46.5, 10.0001)));
   EXPECT_TRUE(std::isnan(undulation_m(region, 46.5, -9)));
+}
+
+/// Found by fuzzing (2026-11-26): the gap was taken for a whole cell, however narrow it was.
+TEST(Geoid, between_the_last_post_and_the_first_of_a_grid_that_does_not_close_is_nothing) {
+  const std::array<float, 8> posts_m{1, 2, 3, 4, 5, 6, 7, 8};
+  GeoidGrid grid{.south_deg = -90,
+                 .west_deg = 0,
+                 .latitude_step_deg = 180,
+                 .longitude_step_deg = 118,
+                 .rows = 2,
+                 .columns = 4,
+                 .posts_m = posts_m};
+  EXPECT_NEAR(undulation_m(grid, -90, 354), 4, 1e-9);
+  EXPECT_TRUE(std::isnan(undulation_m(grid, -90, 359)));
+  grid.longitude_step_deg = 90.000001;  // few digits of 90
+  EXPECT_NEAR(undulation_m(grid, -90, 315), 2.5, 1e-6);
 }
 
 TEST(Geoid, bad_places_are_unknown) {

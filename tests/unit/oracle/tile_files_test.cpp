@@ -237,6 +237,13 @@ TEST(GeoidFiles, pgm_is_bilinear_from_the_north_and_wraps) {
   EXPECT_THROW((void)Geoid::read(folder.path() / "short.pgm"), InputError);
 }
 
+/// Found by fuzzing (2026-11-26): the oracle asked for three rows, the display reads two.
+TEST(GeoidFiles, two_rows_from_pole_to_pole_are_a_grid) {
+  std::string bytes = "P5\n# Offset -100\n# Scale 0.5\n2 2\n65535\n";
+  for (const unsigned raw : {0U, 0U, 400U, 400U}) append_16(bytes, raw);
+  EXPECT_NEAR(Geoid::in("g.pgm", bytes).at(45, 90), -50, 1e-12);
+}
+
 /// Found by fuzzing: rounding put such a place a turn further on, or the edge outside; N was 0
 /// there.
 TEST(GeoidFiles, a_place_on_the_edge_of_a_grid_has_its_post) {
