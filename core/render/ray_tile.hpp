@@ -14,8 +14,8 @@ struct BlockShape {
 };
 
 /// A rectangle of the picture whose pixels share rays in blocks of one shape, as the shaders read
-/// it: as vertex attributes of an instance, and in a storage buffer. The rays of a tile stand in
-/// the targets as a small picture that begins at a place of its own.
+/// it from a texture, by number. The rays of a tile stand in the targets as a small picture that
+/// begins at a place of its own.
 struct RayTile {
   std::int32_t origin = 0;           ///< first pixel: x, and y * 65536
   std::int32_t rays = 0;             ///< where its rays begin in the targets, likewise
