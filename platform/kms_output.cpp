@@ -181,7 +181,8 @@ Status KmsOutput::attach(SharedBuffer& buffer) {
   const auto bind = reinterpret_cast<PFNGLEGLIMAGETARGETRENDERBUFFERSTORAGEOESPROC>(
       eglGetProcAddress("glEGLImageTargetRenderbufferStorageOES"));
   const auto* able = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
-  if (create == nullptr || bind == nullptr || std::strstr(able, "GL_OES_EGL_image") == nullptr) {
+  if (create == nullptr || bind == nullptr || able == nullptr ||
+      std::strstr(able, "GL_OES_EGL_image") == nullptr) {
     return Fault::egl_unavailable;
   }
   buffer.image = create(display_, EGL_NO_CONTEXT, EGL_NATIVE_PIXMAP_KHR, buffer.memory, nullptr);

@@ -61,6 +61,7 @@ class WindowOutput final : public ScreenOutput {
   void wait_mapped(std::int64_t timeout_ns);
   void draw_failure_picture();
   void take_events();
+  void take(const xcb_generic_event_t& event);
   [[nodiscard]] Status ask();
   bool take_answer();
   Status gone() {
@@ -151,8 +152,11 @@ void WindowOutput::wait_mapped(std::int64_t timeout_ns) {
   const std::int64_t deadline_ns = screen_time_ns() + timeout_ns;
   while (xcb_connection_has_error(server_) == 0 && screen_time_ns() < deadline_ns) {
     const Reply<xcb_generic_event_t> event(xcb_poll_for_event(server_));
-    if (event != nullptr && (event->response_type & 0x7f) == XCB_MAP_NOTIFY) return;
-    if (event != nullptr) continue;
+    if (event != nullptr) {
+      take(*event);  // a window manager may say what size it gives before it shows the window
+      if ((event->response_type & 0x7f) == XCB_MAP_NOTIFY) return;
+      continue;
+    }
     pollfd told{xcb_get_file_descriptor(server_), POLLIN, 0};
     ::poll(&told, 1, 50);
   }
@@ -195,24 +199,28 @@ Status WindowOutput::attach(EglContext& context, ScreenDetail& detail) {
 void WindowOutput::take_events() {
   while (xcb_generic_event_t* next = xcb_poll_for_event(server_)) {
     const Reply<xcb_generic_event_t> event(next);
-    switch (event->response_type & 0x7f) {
-      case XCB_CONFIGURE_NOTIFY: {
-        const auto* now = reinterpret_cast<const xcb_configure_notify_event_t*>(event.get());
-        window_width_px_ = now->width;
-        window_height_px_ = now->height;
-        break;
-      }
-      case XCB_CLIENT_MESSAGE: {
-        const auto* told = reinterpret_cast<const xcb_client_message_event_t*>(event.get());
-        closed_ = closed_ || told->data.data32[0] == close_message_;
-        break;
-      }
-      case XCB_DESTROY_NOTIFY:
-        closed_ = true;
-        break;
-      default:
-        break;
+    take(*event);
+  }
+}
+
+void WindowOutput::take(const xcb_generic_event_t& event) {
+  switch (event.response_type & 0x7f) {
+    case XCB_CONFIGURE_NOTIFY: {
+      const auto& now = reinterpret_cast<const xcb_configure_notify_event_t&>(event);
+      window_width_px_ = now.width;
+      window_height_px_ = now.height;
+      break;
     }
+    case XCB_CLIENT_MESSAGE: {
+      const auto& told = reinterpret_cast<const xcb_client_message_event_t&>(event);
+      closed_ = closed_ || told.data.data32[0] == close_message_;
+      break;
+    }
+    case XCB_DESTROY_NOTIFY:
+      closed_ = true;
+      break;
+    default:
+      break;
   }
 }
 

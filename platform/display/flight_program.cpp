@@ -75,11 +75,15 @@ bool FlightProgram::fly() {
 Exit FlightProgram::refuse(const std::string& problem) {
   exchange_.stop = true;
   supervisor_.let_go();
-  bus_thread_.join(end_limit_ns);
-  render_thread_.join(end_limit_ns);
+  const bool bus_ended = bus_thread_.join(end_limit_ns);
+  const bool render_ended = render_thread_.join(end_limit_ns);
   log_.end = true;
-  log_thread_.join(end_limit_ns);
+  const bool log_ended = log_thread_.join(end_limit_ns);
   std::fprintf(stderr, "ridgeline-display: %s\n", problem.c_str());
+  if (!bus_ended || !render_ended || !log_ended) {  // what it still uses must stay
+    std::fflush(stderr);
+    ::_exit(static_cast<int>(Exit::bad_input));
+  }
   return Exit::bad_input;
 }
 
