@@ -1,5 +1,6 @@
 #include "core/state/ownship_update.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -285,7 +286,9 @@ OwnshipState update_ownship(const OwnshipState& previous, std::span<const BusFra
     bump(state.counters.clock_resets);
     note_clock_step(state, now_ns);
   }
-  state.now_ns = now_ns;
+  // A clock may stand a little back, but not creep back: many small steps would keep old data
+  // young.
+  state.now_ns = std::max(state.now_ns, now_ns);
   for (const BusFrame& frame : frames) take_frame(state, frame, profile);
   return state;
 }

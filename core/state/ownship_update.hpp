@@ -12,7 +12,7 @@ namespace ridgeline {
 /// Frame:  times of frames and `now_ns` on one clock (log time, or kernel time of reception).
 /// Domain: any frames; what is wrong with one is counted, never fatal. Frames should be in time
 /// order; one older than
-///         the value held is refused. `now_ns` more than future_tolerance_ns before the last one
+///         the value held is refused. `now_ns` more than future_tolerance_ns before the latest one
 ///         means a new clock: everything but the counters is forgotten.
 /// Rules:  - Each parameter has its own age: no frame of another parameter, channel or source
 /// renews it.

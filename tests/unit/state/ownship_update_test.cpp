@@ -313,6 +313,17 @@ TEST(OwnshipUpdate, older_and_future_frames_are_refused) {
   EXPECT_EQ(own.state.counters.from_future, 1U);
 }
 
+TEST(OwnshipUpdate, a_clock_that_creeps_back_is_one_that_goes_back) {
+  Ownship own;
+  own.feed(float_of(P::roll, 1.0, 10000.0));
+  own.feed({}, 9985.0);
+  EXPECT_EQ(own.state.counters.clock_resets, 0U);  // it may stand a little back
+  EXPECT_EQ(own.state[P::roll].validity, Validity::valid);
+  own.feed({}, 9970.0);
+  EXPECT_EQ(own.state.counters.clock_resets, 1U);
+  EXPECT_EQ(own.state[P::roll].validity, Validity::missing);
+}
+
 TEST(OwnshipUpdate, a_clock_that_goes_back_forgets_everything_but_the_counters) {
   Ownship own;
   own.feed(float_of(P::roll, 1.0, 10000.0));
