@@ -30,11 +30,10 @@ struct RayTile {
   [[nodiscard]] int width() const { return size & 0xFFFF; }
   [[nodiscard]] int height() const { return size >> 16; }
   [[nodiscard]] BlockShape shape() const { return {block & 0xFFFF, block >> 16}; }
-  /// How many rays it has; blocks at its far edges may be cut.
-  [[nodiscard]] int ray_count() const {
-    const BlockShape each = shape();
-    return ((width() + each.width - 1) / each.width) * ((height() + each.height - 1) / each.height);
-  }
+  /// Rays side by side, and above each other; blocks at its far edges may be cut.
+  [[nodiscard]] int ray_columns() const { return (width() + shape().width - 1) / shape().width; }
+  [[nodiscard]] int ray_rows() const { return (height() + shape().height - 1) / shape().height; }
+  [[nodiscard]] int ray_count() const { return ray_columns() * ray_rows(); }
 };
 static_assert(sizeof(RayTile) == 16);
 

@@ -26,9 +26,7 @@ struct FaceSize {
 
 FaceSize face_size(const RayTile& tile, TileFace face) {
   if (face == TileFace::pixels) return {tile.width(), tile.height()};
-  const BlockShape block = tile.shape();
-  return {(tile.width() + block.width - 1) / block.width,
-          (tile.height() + block.height - 1) / block.height};
+  return {tile.ray_columns(), tile.ray_rows()};
 }
 
 }  // namespace
