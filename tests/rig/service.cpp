@@ -19,13 +19,10 @@ namespace fs = std::filesystem;
 constexpr const char* name = "ridgeline-display.service";
 constexpr const char* program = "/usr/bin/ridgeline-display";
 
-/// How long a start may take is the machine's business here, which may be busy. In emulation frames
-/// take seconds as well, for which the watchdog waits.
-void wait_longer() {
-  const fs::path folder = "/run/systemd/system/ridgeline-display.service.d";
+void add_to_unit(const std::string& unit, const std::string& lines) {
+  const fs::path folder = "/run/systemd/system/" + unit + ".d";
   fs::create_directories(folder);
-  std::ofstream(folder / "slow.conf") << "[Service]\nTimeoutStartSec=900\n"
-                                      << (is_emulated() ? "WatchdogSec=60\n" : "");
+  std::ofstream(folder / "rig.conf") << lines;
 }
 
 }  // namespace
@@ -46,7 +43,12 @@ Service::Service() {
   fs::copy_file(DISPLAY_PROGRAM, program, over);
   fs::copy_file(UNIT_FILE, unit_file, over);
   fs::create_directories(fs::path(configuration).parent_path());
-  wait_longer();
+  // How long a start may take is the machine's business here, which may be busy. In emulation
+  // frames take seconds as well, for which the watchdog waits.
+  add_to_unit(name, std::string("[Service]\nTimeoutStartSec=900\n") +
+                        (is_emulated() ? "WatchdogSec=60\n" : ""));
+  // systemd forgets how a unit ended that nothing refers to.
+  add_to_unit("rig.target", std::string("[Unit]\nPropagatesReloadTo=") + name + "\n");
   EXPECT_TRUE(shell("systemctl daemon-reload"));
   cursor_ = output_of("journalctl -n 1 -o cat --show-cursor | sed -n 's/^-- cursor: //p'");
 }
