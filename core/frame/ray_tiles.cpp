@@ -186,7 +186,7 @@ RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local
                            const Camera& camera, const RaySharing& sharing,
                            const RayTileTables& tables, const TileCut& cut) {
   const double reach_px = reach_px_of(sharing);
-  const int ring_px = std::max(static_cast<int>(reach_px) + 1, cut.from_px > 0 ? cut_ring_px : 0);
+  const int ring_px = (std::max(static_cast<int>(reach_px) + 1, cut.from_px > 0 ? cut_ring_px : 0) + 3) / 4 * 4;
   const bool polar = terrain.lattice().polar();  // its blocks have no east and north
   const bool small = std::min(camera.width_px, camera.height_px - cut.from_px) < 4 * ring_px;
   const bool surveyed = !polar && !sharing.every_pixel;
