@@ -75,19 +75,6 @@ void Judge::search_rings(PixelSearch& search, double from, double to, int rings,
   }
 }
 
-// Crosses find a disc, not the smallest: where it is larger than what the frame says its terms add up
-// to, points half a pixel apart show whether that one does. Whoever shows several pixels one ray has
-// it at such a point.
-void Judge::search_within(PixelSearch& search, double radius_px) {
-  const auto most = static_cast<int>(2 * radius_px);
-  for (int j = -most; j <= most; ++j) {
-    for (int i = -most; i <= most && search.radius_px() > radius_px; ++i) {
-      const ImagePoint offset{0.5 * i, 0.5 * j};
-      if (size_of(offset) <= radius_px) search.add(offset);
-    }
-  }
-}
-
 void Judge::search_around_extremes(PixelSearch& search) const {
   // A larger disc holds more hills and hollows, any of which may be the one that counts.
   const auto starts = static_cast<std::size_t>(std::clamp(bound_px_, 2.0, 12.0));
@@ -274,7 +261,7 @@ void Judge::judge_soundness(double z, const ImagePoint& centre, bool measure,
   const double accuracy_px = std::min(0.01 * bound_px_, 0.002);
   if (search.done()) {
     search.refine(0, accuracy_px);
-    if (frame_.proven_px) search_within(search, *frame_.proven_px);
+    if (frame_.proven_px) search.search_within(*frame_.proven_px);
     judgement.error_px = search.radius_px();
     return;
   }

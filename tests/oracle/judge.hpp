@@ -117,7 +117,6 @@ class Judge {
                        Judgement& judgement) const;
   [[nodiscard]] Doubt search_whole_disc(PixelSearch& search) const;
   void search_rings(PixelSearch& search, double from, double to, int rings, int rays) const;
-  static void search_within(PixelSearch& search, double radius_px);
   void search_around_extremes(PixelSearch& search) const;
   void climb(PixelSearch& search, Sample best, int claim) const;
   [[nodiscard]] ArcResult search_arc(PixelSearch& search, bool upper) const;
