@@ -265,8 +265,11 @@ TEST_F(RigService, one_that_dies_again_and_again_is_given_up) {
     ::kill(dead, SIGKILL);
     ++deaths;
   }
-  if (seconds_since(start) > 50) GTEST_SKIP() << "five starts took this machine more than a minute";
-  EXPECT_TRUE(within(soon_s, [] { return Service::is("failed"); })) << journal();
+  const double deaths_s = seconds_since(start);
+  if (!within(10, [] { return Service::is("failed"); }) && deaths_s > 50) {
+    GTEST_SKIP() << deaths << " deaths took this machine " << deaths_s << " s, too long to count";
+  }
+  EXPECT_TRUE(Service::is("failed")) << journal();
   EXPECT_GE(deaths, 5) << "it is tried again";
   wait(4);
   EXPECT_TRUE(Service::is("failed"));
