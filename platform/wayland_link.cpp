@@ -177,6 +177,7 @@ void WaylandLink::take_events(std::int64_t deadline_ns) {
     wl_display_cancel_read(display_);
   }
   wl_display_dispatch_pending(display_);
+  wl_display_flush(display_);  // what was answered to that
 }
 
 void WaylandLink::send() {

@@ -24,12 +24,12 @@ bool says(const Refusal& refused, const char* words) {
 }
 
 TEST_F(WaylandWindow, that_is_hidden_takes_pictures_without_a_fault_and_tells_of_none) {
-  open({}, 200 * ms_ns);
+  open({}, 1'000 * ms_ns);
   ASSERT_TRUE(present(1));
   server->hide_window(true);
   const std::int64_t before_ns = screen_time_ns();
   for (std::uint32_t frame = 2; frame <= 40; ++frame) ASSERT_TRUE(give(frame)) << frame;
-  EXPECT_LT(screen_time_ns() - before_ns, 38 * 200 * ms_ns) << "no time limit ran out";
+  EXPECT_LT(screen_time_ns() - before_ns, 20'000 * ms_ns) << "no time limits ran out";
   EXPECT_EQ(screen->health().faults, 0U);
   EXPECT_EQ(screen->health().presented, 40U);
   EXPECT_EQ(screen->shown().picture, 1U);
@@ -56,7 +56,7 @@ TEST_F(WaylandWindow, of_a_compositor_that_answers_no_question_asks_no_more_of_t
 }
 
 TEST_F(WaylandWindow, buffers_not_given_back_are_never_drawn_to_and_told_as_late) {
-  open({}, 100 * ms_ns);
+  open({}, 400 * ms_ns);
   server->keep_buffers(true);  // the black one included
   ASSERT_TRUE(present(1));
   ASSERT_TRUE(present(2));
@@ -168,7 +168,7 @@ TEST_F(WaylandWindow, closing_it_is_told_and_final) {
 }
 
 TEST_F(WaylandWindow, a_compositor_that_hangs_is_late_and_may_come_back) {
-  open({}, 200 * ms_ns);
+  open({}, 500 * ms_ns);
   ASSERT_TRUE(present(1));
   server->stop();
   EXPECT_TRUE(give(2)) << "nobody can know yet";

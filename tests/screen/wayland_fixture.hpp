@@ -22,6 +22,7 @@ inline ScreenSettings at(const char* compositor) {
   settings.width_px = width;
   settings.height_px = height;
   settings.wayland_display = compositor;
+  settings.gpu_timeout_ns = 5'000'000'000;
   settings.flip_timeout_ns = 2'000 * ms_ns;  // tests run on busy machines
   return settings;
 }

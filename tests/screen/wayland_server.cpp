@@ -48,6 +48,10 @@ void WaylandServer::run() {
     {
       const std::lock_guard lock(mutex_);
       if (task_ != nullptr) (*task_)();
+      // Told before the test goes on.
+      if (task_ != nullptr && !stopped_ && state_->display != nullptr) {
+        wl_display_flush_clients(state_->display);
+      }
       task_ = nullptr;
     }
     done_.notify_all();
@@ -151,11 +155,11 @@ int WaylandServer::open_questions() {
 }
 
 void WaylandServer::stop() {
-  stopped_ = true;
+  call([&] { stopped_ = true; });
 }
 
 void WaylandServer::go_on() {
-  stopped_ = false;
+  call([&] { stopped_ = false; });
 }
 
 void WaylandServer::kill() {
@@ -192,7 +196,10 @@ void WaylandServer::ping() {
 
 bool WaylandServer::has_answered() {
   bool all = false;
-  call([&] { all = state_->pings > 0 && state_->pongs == state_->pings; });
+  for (int wait = 0; wait < 100 && !all; ++wait) {
+    call([&] { all = state_->pings > 0 && state_->pongs == state_->pings; });
+    if (!all) ::usleep(10'000);
+  }
   return all;
 }
 

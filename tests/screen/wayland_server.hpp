@@ -76,7 +76,8 @@ class WaylandServer {
   void size_window(int width, int height, bool maximized = false, bool fullscreen = false);
   /// Times that the client has asked to be neither maximized nor fullscreen.
   [[nodiscard]] int asked_for_less();
-  /// Asks whether the client lives; whether it has answered all that was asked.
+  /// Asks whether the client lives; whether it has answered all that was asked, within
+  /// a second.
   void ping();
   [[nodiscard]] bool has_answered();
   void show_on_output_of_scale(int scale);
