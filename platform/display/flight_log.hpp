@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/monitor/availability.hpp"
 #include "platform/spsc_ring.hpp"
 
 namespace ridgeline {
@@ -32,5 +33,9 @@ class LogRing {
 /// One line of text without end of line, "12.345678 s: TEXT"; under a service manager's journal
 /// with the level as `<N>` before it. Returns its length. Shape: line has room for 256 bytes.
 int log_line(const LogRecord& record, bool for_journal, std::array<char, 256>& line);
+
+/// What a picture is, in words: its mode and its reasons, "removed attitude_stale heading_stale".
+/// What finds no room is left out.
+[[nodiscard]] std::array<char, 128> picture_words(const Availability& availability);
 
 }  // namespace ridgeline

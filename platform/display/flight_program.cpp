@@ -17,6 +17,13 @@ std::string told(const char* what, const char* name, Fault fault) {
   return std::string(what) + " '" + name + "': " + std::string(fault_text(fault));
 }
 
+sigset_t taken_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaddset(&signals, signal);
+  return signals;
+}
+
 }  // namespace
 
 FlightProgram::FlightProgram(const DisplayConfig& config)
@@ -26,6 +33,11 @@ FlightProgram::FlightProgram(const DisplayConfig& config)
       render_(config, exchange_),
       log_(config, exchange_) {
   exchange_.start_ns = monotonic_now_ns();
+}
+
+void FlightProgram::hold_signals() {
+  const sigset_t signals = taken_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
 std::string FlightProgram::open() {
@@ -38,10 +50,7 @@ std::string FlightProgram::open() {
 }
 
 std::string FlightProgram::start() {
-  // Every thread inherits this mask: signals are this thread's alone.
-  sigemptyset(&signals_);
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaddset(&signals_, signal);
-  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  hold_signals();  // every thread inherits this: signals are this thread's alone
   const auto log = [](void* self) { static_cast<LogThread*>(self)->run(); };
   const auto bus = [](void* self) { static_cast<BusThread*>(self)->run(); };
   const auto render = [](void* self) { static_cast<RenderThread*>(self)->run(); };
@@ -62,10 +71,11 @@ bool FlightProgram::fly() {
   touch_stack();
   const int priority = config_.real_time.supervisor_priority;
   exchange_.real_time.supervisor = priority > 0 ? make_real_time(priority) : 0;
+  const sigset_t signals = taken_signals();
   const HeapSection after_boot;
   constexpr timespec wait = {0, round_ns};
   while (!exchange_.stop.load(std::memory_order_relaxed)) {
-    if (const int signal = sigtimedwait(&signals_, nullptr, &wait); signal > 0) take_signal(signal);
+    if (const int signal = sigtimedwait(&signals, nullptr, &wait); signal > 0) take_signal(signal);
     if (render_.boot_state() == RenderThread::Boot::refused) return false;
     supervisor_.round(monotonic_now_ns());
   }

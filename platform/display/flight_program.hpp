@@ -21,6 +21,10 @@ class FlightProgram {
  public:
   explicit FlightProgram(const DisplayConfig& config);
 
+  /// Holds back the signals that run() takes, for the calling thread and all that it starts. The
+  /// first thing a program does: one that comes before would end it as if it knew none.
+  static void hold_signals();
+
   /// Boots, flies until SIGTERM or SIGINT or a fault that ends it, and shuts down. What boot
   /// refuses is one line on standard error. SIGUSR1 asks for a status report.
   Exit run();
@@ -40,7 +44,6 @@ class FlightProgram {
   RenderThread render_;
   LogThread log_;
   FlightThread bus_thread_, render_thread_, log_thread_;
-  sigset_t signals_{};
 };
 
 }  // namespace ridgeline

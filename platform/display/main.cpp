@@ -66,5 +66,6 @@ Exit run(int count, char** words) {
 }  // namespace
 
 int main(int count, char** words) {
+  ridgeline::FlightProgram::hold_signals();
   return static_cast<int>(run(count, words));
 }

@@ -280,15 +280,8 @@ void RenderThread::note_latency(const ShownStamp& stamp) {
 void RenderThread::tell_change(const Availability& before) {
   const Availability& now = fact_.availability;
   if (fact_.proof.frame > 1 && same(before, now)) return;
-  char words[120] = "";
-  std::size_t length = 0;
-  for (const Reason reason : now.reasons) {
-    const int added =
-        std::snprintf(words + length, sizeof words - length, " %s", reason_word(reason).data());
-    length = std::min(length + static_cast<std::size_t>(added), sizeof words - 1);
-  }
   exchange_.render_log.tell(now.mode == Mode::svs ? LogLevel::note : LogLevel::caution,
-                            "picture: %s%s", mode_word(now.mode).data(), words);
+                            "picture: %s", picture_words(now).data());
 }
 
 void RenderThread::dump() {

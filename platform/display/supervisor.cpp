@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace ridgeline {
 namespace {
@@ -122,11 +123,25 @@ void Supervisor::keep_service() {
     booted_ = true;
     service_.tell("READY=1");
   }
+  if (booted_) tell_state();
   const bool alive = frame_.proof.frame > frame_kept_ && bus_.rounds > rounds_kept_;
   if (!alive || stalled_) return;
   frame_kept_ = frame_.proof.frame;
   rounds_kept_ = bus_.rounds;
   service_.tell("WATCHDOG=1");
+}
+
+/// What a person reads who asks the service manager: the same words as in the log.
+void Supervisor::tell_state() {
+  std::array<char, 160> state{};
+  if (stalled_) {
+    std::snprintf(state.data(), state.size(), "STATUS=picture: no new frame for %d ms",
+                  config_.timeouts.picture_ms);
+  } else {
+    std::snprintf(state.data(), state.size(), "STATUS=picture: %s",
+                  picture_words(frame_.availability).data());
+  }
+  if (state != state_told_ && service_.tell(state.data())) state_told_ = state;
 }
 
 void Supervisor::let_go() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -39,6 +40,7 @@ class Supervisor {
   void pass_switches();
   void write_lines(std::int64_t now_ns);
   void keep_service();
+  void tell_state();
   void tell_lost(const Status& status);
 
   const DisplayConfig& config_;
@@ -52,6 +54,7 @@ class Supervisor {
   bool booted_ = false;
   bool stalled_ = false;
   std::uint64_t frame_kept_ = 0, rounds_kept_ = 0;  ///< when the service manager was told last
+  std::array<char, 160> state_told_{};
 };
 
 /// The stable word of a refusal, for logs and reports.

@@ -1,11 +1,11 @@
 #include "sim/bench/bench_row.hpp"
 
 #include <algorithm>
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "sim/output/formatted.hpp"
 #include "sim/output/percentile.hpp"
 
 namespace ridgeline::sim {
@@ -59,15 +59,6 @@ Json row_json(const BenchRow& row) {
   return json;
 }
 
-__attribute__((format(printf, 2, 3))) void add(std::string& text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
-
 void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
   constexpr double mib = 1.0 / (1024.0 * 1024.0);
   const auto number = [](const std::optional<double>& value, const char* format) {
@@ -75,16 +66,18 @@ void add_row(std::string& text, const BenchRow& row, double fastest_ms) {
     if (value) std::snprintf(word, sizeof word, format, *value);
     return std::string(word);
   };
-  add(text, "| %s | %s | %.1f | %.1f | %.1f | %.2f | %.1f | %s |", row.spec.c_str(),
-      row.view.c_str(), row.median_ms(), percentile(row.frame_ms, 0.99),
-      percentile(row.frame_ms, 1.0), fastest_ms > 0 ? row.median_ms() / fastest_ms : 0.0,
-      row.median_core_ms(), number(row.median_gpu_ms(), "%.1f").c_str());
-  add(text, " %s | %s%.3f | %.3f | %.4f | %.2f | %d | %.0f | %s | %.1f | %.1f | %.0f |\n",
-      number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
-      row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
-      row.error.percent_over_px(1.0), row.error.wrong_class, 100.0 * row.ray_cast_share,
-      steps_text(row).c_str(), static_cast<double>(row.gpu_bytes) * mib,
-      static_cast<double>(row.heap_bytes) * mib, row.build_ms);
+  text +=
+      formatted("| %s | %s | %.1f | %.1f | %.1f | %.2f | %.1f | %s |", row.spec.c_str(),
+                row.view.c_str(), row.median_ms(), percentile(row.frame_ms, 0.99),
+                percentile(row.frame_ms, 1.0), fastest_ms > 0 ? row.median_ms() / fastest_ms : 0.0,
+                row.median_core_ms(), number(row.median_gpu_ms(), "%.1f").c_str());
+  text +=
+      formatted(" %s | %s%.3f | %.3f | %.4f | %.2f | %d | %.0f | %s | %.1f | %.1f | %.0f |\n",
+                number(row.bound_px, "%.3f").c_str(), row.error.worst_is_larger ? "> " : "",
+                row.error.worst_px, percentile(row.error.errors_px, 0.99), row.error.mean_px(),
+                row.error.percent_over_px(1.0), row.error.wrong_class, 100.0 * row.ray_cast_share,
+                steps_text(row).c_str(), static_cast<double>(row.gpu_bytes) * mib,
+                static_cast<double>(row.heap_bytes) * mib, row.build_ms);
 }
 
 void add_table(std::string& text, const BenchResult& result, bool of_all) {
@@ -103,7 +96,7 @@ void add_table(std::string& text, const BenchResult& result, bool of_all) {
     add_row(text, row, fastest_ms);
   }
   for (const AbsentMethod& absent : result.absent) {
-    add(text, "| %s | absent: %s |", absent.spec.c_str(), absent.why.c_str());
+    text += formatted("| %s | absent: %s |", absent.spec.c_str(), absent.why.c_str());
     for (int column = 2; column < 19; ++column) text += " – |";
     text += "\n";
   }
@@ -116,12 +109,12 @@ void add_notes(std::string& text, const BenchResult& result) {
   for (const BenchRow& row : result.rows) {
     if (row.view != "all") continue;
     if (row.removed_views > 0) {
-      add(text, "\n%s drew nothing in %d views: it could give no bound there.\n", row.spec.c_str(),
-          row.removed_views);
+      text += formatted("\n%s drew nothing in %d views: it could give no bound there.\n",
+                        row.spec.c_str(), row.removed_views);
     }
     if (row.range_m > 0 && row.range_m < longest_m) {
-      add(text, "\n%s drew no farther than %.1f km in some view, others %.1f km.\n",
-          row.spec.c_str(), row.range_m * 1e-3, longest_m * 1e-3);
+      text += formatted("\n%s drew no farther than %.1f km in some view, others %.1f km.\n",
+                        row.spec.c_str(), row.range_m * 1e-3, longest_m * 1e-3);
     }
   }
 }
@@ -217,8 +210,8 @@ std::string bench_json(const BenchResult& result) {
 
 std::string bench_markdown(const BenchResult& result) {
   std::string text;
-  add(text, "%s, %d x %d, terrain %s\n\nOver all views:\n\n", result.driver.c_str(),
-      result.width_px, result.height_px, result.terrain.c_str());
+  text += formatted("%s, %d x %d, terrain %s\n\nOver all views:\n\n", result.driver.c_str(),
+                    result.width_px, result.height_px, result.terrain.c_str());
   add_table(text, result, true);
   add_notes(text, result);
   text += "\nView by view:\n\n";

@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numbers>
+
+#include "sim/output/formatted.hpp"
 
 namespace ridgeline::sim {
 namespace {
 
 constexpr double letter_px = 5.6, label_height_px = 11.0;
-
-__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...) {
-  char text[768];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 bool overlap(const Box& a, const Box& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
@@ -55,7 +46,7 @@ std::string xml_text(const std::string& words) {
 }
 
 SvgPage::SvgPage(double width, double height) {
-  body_ = print(
+  body_ = formatted(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
       "viewBox=\"0 0 %.0f %.0f\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n"
       "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
@@ -63,14 +54,14 @@ SvgPage::SvgPage(double width, double height) {
 }
 
 void SvgPage::line(double x0, double y0, double x1, double y1, const std::string& style) {
-  body_ += print("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x0, y0, x1, y1,
-                 style.c_str());
+  body_ += formatted("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x0, y0, x1, y1,
+                     style.c_str());
 }
 
 void SvgPage::polyline(const std::vector<std::pair<double, double>>& points,
                        const std::string& style) {
   body_ += "<polyline fill=\"none\" points=\"";
-  for (const auto& [x, y] : points) body_ += print("%.1f,%.1f ", x, y);
+  for (const auto& [x, y] : points) body_ += formatted("%.1f,%.1f ", x, y);
   body_ += "\" " + style + "/>\n";
 }
 
@@ -83,28 +74,28 @@ void SvgPage::marker(double x, double y, int shape, const std::string& colour, d
                 {5, 0.75, 1}, {6, 0, 1},     {8, 0.0625, 1}, {10, 0.75, 0.45}, {8, 0, 0.4}};
   const auto& [corners, turn, inner] = shapes[static_cast<std::size_t>(shape) % std::size(shapes)];
   if (corners == 0) {
-    body_ += print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, size,
-                   colour.c_str());
+    body_ += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, size,
+                       colour.c_str());
     return;
   }
   body_ += "<polygon points=\"";
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * (turn + static_cast<double>(k) / corners);
     const double radius = 1.25 * size * (inner < 1 ? 1.2 : 1.0) * (k % 2 == 0 ? 1.0 : inner);
-    body_ += print("%.1f,%.1f ", x + radius * std::cos(angle), y + radius * std::sin(angle));
+    body_ += formatted("%.1f,%.1f ", x + radius * std::cos(angle), y + radius * std::sin(angle));
   }
   body_ += "\" fill=\"" + colour + "\"/>\n";
 }
 
 void SvgPage::ring(double x, double y, double radius, const std::string& style) {
-  body_ += print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" %s/>\n", x, y, radius,
-                 style.c_str());
+  body_ += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" %s/>\n", x, y,
+                     radius, style.c_str());
 }
 
 void SvgPage::text(double x, double y, const std::string& words, const std::string& anchor,
                    const std::string& style) {
-  body_ += print("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor.c_str(),
-                 style.c_str()) +
+  body_ += formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor.c_str(),
+                     style.c_str()) +
            xml_text(words) + "</text>\n";
 }
 

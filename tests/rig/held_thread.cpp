@@ -23,6 +23,13 @@ HeldThread::HeldThread(pid_t program, const std::string& name) {
   }
 }
 
+void HeldThread::bury() {
+  int status = 0;
+  if (holds() && ::waitpid(thread_, &status, __WALL | WNOHANG) == thread_ && !WIFSTOPPED(status)) {
+    thread_ = -1;
+  }
+}
+
 HeldThread::~HeldThread() {
   if (holds()) ::ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
 }

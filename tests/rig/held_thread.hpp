@@ -16,6 +16,9 @@ class HeldThread {
   ~HeldThread();
 
   [[nodiscard]] bool holds() const { return thread_ > 0; }
+  /// Once its program was killed: a thread that is held stays, and its program with it, until its
+  /// end was asked for. Nothing while it lives.
+  void bury();
 
  private:
   pid_t thread_ = -1;

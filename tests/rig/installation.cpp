@@ -81,8 +81,9 @@ void Installation::configure(const InstallationSettings& s) const {
   out << "[lines]\nheartbeat = " << quoted(s.heartbeat)
       << "\nsvs_valid = \"rig-valid\"\nsvs_fail = \"rig-fail\"\ndisplay_on = \"rig-on\"\n"
       << "declutter = \"rig-decl\"\nnight = \"rig-night\"\non_ground = \"rig-ground\"\n";
-  out << "[report]\nstatus_file = \"status.json\"\nstatus_interval_s = " << s.status_interval_s
-      << "\nlast_frame_folder = \"last\"\n"
+  out << "[report]\nstatus_file = " << quoted(s.status_file)
+      << "\nstatus_interval_s = " << s.status_interval_s
+      << "\nlast_frame_folder = " << quoted(s.last_frame_folder) << "\n"
       << s.more;
 }
 

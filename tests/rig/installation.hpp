@@ -25,6 +25,7 @@ struct InstallationSettings {
   int position_ms = is_emulated() ? 6000 : 3000;  ///< height likewise
   int picture_ms = is_emulated() ? 9000 : 2000;
   double status_interval_s = 1;
+  std::string status_file = "status.json", last_frame_folder = "last";
   bool monitor_on = true;
   std::string more;  ///< lines at the end
 };

@@ -1,13 +1,14 @@
 #include "tests/rig/live_account.hpp"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
+
+#include "sim/output/formatted.hpp"
 
 namespace ridgeline::rig {
 namespace {
 
 using Json = nlohmann::json;
+using sim::formatted;
 using Counts = std::map<std::string, std::uint64_t>;
 
 constexpr double latency_limit_ms = 100;
@@ -15,16 +16,6 @@ constexpr double flat_kib = 512;  // what a thread's stack or a driver's cache m
 constexpr double still_ms = 10;   // of standing still in a second that may cost a frame its time
 constexpr double settled_s = 60;  // caches of the driver and the terrain have filled by then
 constexpr std::size_t at_the_end = 2;  // edges that the last report and the last look may be apart
-
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string text(const char* format, ...) {
-  char line[400];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(line, sizeof line, format, values);
-  va_end(values);
-  return line;
-}
 
 double number(const Json& value) {
   return value.is_null() ? 0.0 : value.get<double>();
@@ -64,17 +55,18 @@ Finding memory(const LiveSample& a, const LiveSample& b, const std::vector<LiveS
   });
   const LiveSample& from = settled == samples.end() ? a : *settled;
   const double grown_kib = b.anonymous_kib - from.anonymous_kib;
-  return {grown_kib <= flat_kib,
-          text("memory: anonymous %.0f KiB at %.0f s, %.0f KiB at the end: %+.0f; resident with "
-               "files %.0f, then %.0f",
-               from.anonymous_kib, from.up_s, b.anonymous_kib, grown_kib, from.resident_kib,
-               b.resident_kib)};
+  return {
+      grown_kib <= flat_kib,
+      formatted("memory: anonymous %.0f KiB at %.0f s, %.0f KiB at the end: %+.0f; resident with "
+                "files %.0f, then %.0f",
+                from.anonymous_kib, from.up_s, b.anonymous_kib, grown_kib, from.resident_kib,
+                b.resident_kib)};
 }
 
 Finding allocations(const LiveSample& b) {
   return {b.allocations == 0 && b.gl_creations == 0,
-          text("allocations after boot: %llu, of GL objects %llu", wide(b.allocations),
-               wide(b.gl_creations))};
+          formatted("allocations after boot: %llu, of GL objects %llu", wide(b.allocations),
+                    wide(b.gl_creations))};
 }
 
 /// Totals: the log begins and ends within what the samples span, and so does the interface.
@@ -85,10 +77,11 @@ Finding bus(const LiveSample& b) {
   const bool all_there = b.sent >= accounted && b.sent - accounted <= 64;
   return {
       b.dropped == 0 && all_there,
-      text("bus: %llu frames sent, %llu received, %llu dropped by the kernel; %llu of them values, "
-           "%llu not in the table, %llu replayed; %llu otherwise refused",
-           wide(b.sent), wide(b.received), wide(b.dropped), wide(b.decoded), wide(b.ignored),
-           wide(b.replayed), wide(b.received - std::min(b.received, taken)))};
+      formatted(
+          "bus: %llu frames sent, %llu received, %llu dropped by the kernel; %llu of them values, "
+          "%llu not in the table, %llu replayed; %llu otherwise refused",
+          wide(b.sent), wide(b.received), wide(b.dropped), wide(b.decoded), wide(b.ignored),
+          wide(b.replayed), wide(b.received - std::min(b.received, taken)))};
 }
 
 bool says(const LiveSample& sample, const char* reason) {
@@ -131,9 +124,9 @@ Finding heartbeats(const std::vector<LiveSample>& samples) {
     open += without_cause(samples[i < 2 ? 0 : i - 2], samples[i - 1], samples[i], causes);
   }
   const Counts refused = since(a.refused, b.refused);
-  return {open == 0,
-          text("heartbeats: %llu for %llu frames; missed: %s; causes: %s", wide(b.edges - a.edges),
-               wide(b.drawn - a.drawn), words(refused).c_str(), words(causes).c_str())};
+  return {open == 0, formatted("heartbeats: %llu for %llu frames; missed: %s; causes: %s",
+                               wide(b.edges - a.edges), wide(b.drawn - a.drawn),
+                               words(refused).c_str(), words(causes).c_str())};
 }
 
 /// Every frame was judged, and the line did what the report says.
@@ -143,28 +136,30 @@ std::vector<Finding> edges(const LiveSample& a, const LiveSample& b) {
   const std::uint64_t unjudged = drawn - std::min(judged, drawn);
   const std::uint64_t told = b.edges, seen = b.edges_seen;  // watched since before the first
   const std::uint64_t apart = std::max(told, seen) - std::min(told, seen);
-  return {{unjudged <= 1, text("frames that were never judged: %llu", wide(unjudged))},
+  return {{unjudged <= 1, formatted("frames that were never judged: %llu", wide(unjudged))},
           {apart <= at_the_end && seen > 0,
-           text("edges of the heartbeat line: %llu reported, %llu seen on it", wide(told),
-                wide(seen))}};
+           formatted("edges of the heartbeat line: %llu reported, %llu seen on it", wide(told),
+                     wide(seen))}};
 }
 
 Finding pictures(const LiveSample& a, const LiveSample& b) {
   // Removed ones have no heartbeat, so their cause is asked for there.
   const bool good =
       b.present_faults == a.present_faults && b.log_dropped == a.log_dropped && b.mode != "removed";
-  return {good,
-          text("pictures: %llu drawn, %llu late, %llu degraded, %llu removed, %llu not shown; "
-               "stalls %llu, log lines dropped %llu",
-               wide(b.drawn - a.drawn), wide(b.late - a.late), wide(b.degraded - a.degraded),
-               wide(b.removed - a.removed), wide(b.present_faults - a.present_faults),
-               wide(b.picture_stalls - a.picture_stalls), wide(b.log_dropped - a.log_dropped))};
+  return {
+      good,
+      formatted("pictures: %llu drawn, %llu late, %llu degraded, %llu removed, %llu not shown; "
+                "stalls %llu, log lines dropped %llu",
+                wide(b.drawn - a.drawn), wide(b.late - a.late), wide(b.degraded - a.degraded),
+                wide(b.removed - a.removed), wide(b.present_faults - a.present_faults),
+                wide(b.picture_stalls - a.picture_stalls), wide(b.log_dropped - a.log_dropped))};
 }
 
 Finding latency(const LiveSample& b) {
-  return {b.latency_count > 0 && b.latency_p99_ms <= latency_limit_ms,
-          text("latency, kernel's stamp to picture shown: p50 %.2f, p99 %.2f, max %.2f ms of %llu",
-               b.latency_p50_ms, b.latency_p99_ms, b.latency_max_ms, wide(b.latency_count))};
+  return {
+      b.latency_count > 0 && b.latency_p99_ms <= latency_limit_ms,
+      formatted("latency, kernel's stamp to picture shown: p50 %.2f, p99 %.2f, max %.2f ms of %llu",
+                b.latency_p50_ms, b.latency_p99_ms, b.latency_max_ms, wide(b.latency_count))};
 }
 
 }  // namespace

@@ -50,6 +50,20 @@ TEST(FlightLog, a_full_ring_drops_and_counts_and_a_long_text_is_cut) {
   EXPECT_LT(line_of(record, true).size(), 256u);
 }
 
+TEST(FlightLog, a_picture_is_told_by_mode_and_reasons_as_far_as_there_is_room) {
+  Availability seen;
+  EXPECT_STREQ(picture_words(seen).data(), mode_word(seen.mode).data());
+  seen.mode = Mode::removed;
+  seen.reasons.push_back(Reason::attitude_stale);
+  seen.reasons.push_back(Reason::heading_stale);
+  EXPECT_STREQ(picture_words(seen).data(), "removed attitude_stale heading_stale");
+  while (seen.reasons.push_back(Reason::heading_reference_unknown)) {
+  }
+  const std::string all = picture_words(seen).data();
+  EXPECT_EQ(all.size(), 127u);
+  EXPECT_EQ(all.rfind("removed attitude_stale heading_stale heading_reference_unknown ", 0), 0u);
+}
+
 /// What SIGUSR1 asks for; the signal itself is rig.display's.
 TEST(StatusFile, is_written_once_for_each_time_it_is_asked_for) {
   const test::ScratchFolder folder("status_file");

@@ -1,8 +1,12 @@
 // The flight program from outside, as far as no bus is needed.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -54,6 +58,40 @@ TEST(DisplayProgram, wrong_usage_ends_with_2) {
   }
   EXPECT_EQ(display("--help").status, 0);
   EXPECT_EQ(display("--version").status, 0);
+}
+
+/// What becomes of the program when the signal comes while it still reads its configuration, a
+/// pipe that tells when: the raw status of its end.
+int ended_after(int signal, const std::string& pipe) {
+  const pid_t program = ::fork();
+  if (program == 0) {
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(nowhere, STDERR_FILENO);
+    ::execl(DISPLAY_PROGRAM, DISPLAY_PROGRAM, pipe.c_str(), nullptr);
+    ::_exit(127);
+  }
+  const int writer = ::open(pipe.c_str(), O_WRONLY);  // waits until the program reads
+  ::kill(program, signal);
+  ::close(writer);  // an empty configuration, which is refused
+  int raw = -1;
+  ::waitpid(program, &raw, 0);
+  return raw;
+}
+
+/// Found on 2026-11-25: before boot had set its mask, a question (SIGUSR1) ended the program.
+TEST(DisplayProgram, a_signal_before_boot_does_not_end_it) {
+  const test::ScratchFolder folder("display_program");
+  const std::string pipe = folder.file("pipe.toml");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const int signal : {SIGUSR1, SIGTERM, SIGINT}) {
+    for (int time = 0; time < 10; ++time) {
+      const int raw = ended_after(signal, pipe);
+      ASSERT_TRUE(WIFEXITED(raw)) << "ended by signal " << WTERMSIG(raw);
+      ASSERT_EQ(WEXITSTATUS(raw), 3);
+    }
+  }
+  const int raw = ended_after(SIGHUP, pipe);
+  EXPECT_TRUE(WIFSIGNALED(raw) && WTERMSIG(raw) == SIGHUP) << "the signal comes in time to be seen";
 }
 
 TEST(DisplayProgram, no_bus_is_refused_by_name) {

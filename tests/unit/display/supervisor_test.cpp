@@ -175,7 +175,8 @@ TEST_F(SupervisorTest, the_service_manager_hears_of_life_not_of_success) {
   bus_round();
   fact_.availability.mode = Mode::removed;  // no bus value was ever received: alive all the same
   frame(33 * ms);
-  EXPECT_EQ(manager.heard(), (std::vector<std::string>{"READY=1", "WATCHDOG=1"}));
+  EXPECT_EQ(manager.heard(),
+            (std::vector<std::string>{"READY=1", "STATUS=picture: removed", "WATCHDOG=1"}));
   frame(66 * ms);
   EXPECT_TRUE(manager.heard().empty()) << "the bus thread is dead";
   bus_round();
@@ -186,6 +187,27 @@ TEST_F(SupervisorTest, the_service_manager_hears_of_life_not_of_success) {
   EXPECT_TRUE(manager.heard().empty()) << "the render thread is dead";
   supervisor_->let_go();
   EXPECT_EQ(manager.heard(), (std::vector<std::string>{"STOPPING=1"}));
+}
+
+TEST_F(SupervisorTest, the_service_manager_hears_what_the_picture_is_when_it_changes) {
+  const test::ScratchFolder folder("notify");
+  const Listener manager(folder.file("socket"));
+  make();
+  supervisor_->round(10 * ms);
+  EXPECT_TRUE(manager.heard().empty()) << "before a frame there is nothing to tell";
+  fact_.availability.mode = Mode::svs;
+  frame(33 * ms);
+  EXPECT_EQ(manager.heard(), (std::vector<std::string>{"READY=1", "STATUS=picture: svs"}));
+  frame(66 * ms);
+  EXPECT_TRUE(manager.heard().empty()) << "the same as before";
+  fact_.availability.mode = Mode::degraded;
+  fact_.availability.reasons.push_back(Reason::bound_for_time);
+  frame(99 * ms);
+  EXPECT_EQ(manager.heard(), (std::vector<std::string>{"STATUS=picture: degraded bound_for_time"}));
+  supervisor_->round(700 * ms);
+  EXPECT_EQ(manager.heard(), (std::vector<std::string>{"STATUS=picture: no new frame for 500 ms"}));
+  frame(733 * ms);
+  EXPECT_EQ(manager.heard(), (std::vector<std::string>{"STATUS=picture: degraded bound_for_time"}));
 }
 
 }  // namespace

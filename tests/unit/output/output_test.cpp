@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/output/atomic_file.hpp"
+#include "sim/output/formatted.hpp"
 #include "sim/output/image_file.hpp"
 #include "sim/output/npy_file.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -128,6 +129,14 @@ Npy parsed_npy(const std::vector<unsigned char>& bytes) {
     npy.values.push_back(value);
   }
   return npy;
+}
+
+TEST(Formatted, holds_every_letter_of_any_length) {
+  EXPECT_EQ(formatted("nothing to fill in"), "nothing to fill in");
+  EXPECT_EQ(formatted("%.2f %s|%5d", 1.005, "a", -7), "1.00 a|   -7");
+  EXPECT_EQ(formatted("%s", ""), "");
+  const std::string words(5'000, 'w');
+  EXPECT_EQ(formatted("<%s>", words.c_str()), '<' + words + '>');
 }
 
 TEST(WriteNpy, holds_shape_order_and_every_bit) {
