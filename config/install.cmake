@@ -34,6 +34,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_SET_DESTDIR ON)  # because of /etc
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/config/package/open_folders.cmake)
 set(CPACK_PACKAGE_CONTACT "Ridgeline maintainers <maintainers@ridgeline.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "synthetic vision from a live avionics bus")
 set(CPACK_COMPONENT_DISPLAY_DESCRIPTION
