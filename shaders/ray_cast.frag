@@ -153,8 +153,8 @@ float first_hit(Ray r, float start, int size) {
     if (t > range || (height > ceiling && climb >= 0.0)) return sky;
     vec2 at = eye.xy + s * (q.p1 + s * (q.p2 + s * (q.p3 + s * (q.p4 + s * q.p5))));
     vec2 rate = tolerance.z * (q.p1 + s * (2.0 * q.p2 + s * (3.0 * q.p3 + s * (4.0 * q.p4))));
-    vec2 whole = cell_ahead(at, rate);
-    ivec2 cell = ivec2(whole);
+    vec2 pace = pace_of(rate);
+    ivec2 cell = ivec2(cell_ahead(at, rate));
     int level = level_of(cell, cell + 1, 0);
     size = clamp(size, level + 1, level + node_levels);
     float nudge = 3.0e-5 + 4.0e-7 * t;  // past the edge, so that the next step is over it
@@ -162,7 +162,7 @@ float first_hit(Ray r, float start, int size) {
     // Over the node: the height of a ray is convex in t and stays above its tangent.
     ivec2 low = level_low(w, cell, size);
     int holder = level_of(low, low + (1 << size), level);
-    float leave_node = min(exit_distance(w, cell, size, at, rate), heights.w) + nudge;
+    float leave_node = min(exit_distance(w, cell, size, at, pace), heights.w) + nudge;
     float lowest = height + min(climb, 0.0) * leave_node;
     float k = node_highest(w, cell, size, holder);
     bool whole_node = level_count == 1 || size > holder;  // else two borders in one, while it fills
@@ -173,7 +173,7 @@ float first_hit(Ray r, float start, int size) {
     float unit = 1.0 / float(1 << level);
     vec2 inside = (at - vec2(level_low(w, cell, level))) * unit;
     vec3 gap = gap_along(c, inside, rate * unit, height, climb, bend);
-    float exit = min(exit_distance(w, cell, level, at, rate), heights.w);
+    float exit = min(exit_distance(w, cell, level, at, pace), heights.w);
     // The track counts as straight only as far as it bends by less than 1e-6 of the distance.
     float straight = 0.5 * heights.y + sqrt(heights.y * t);
     float stretch = min(exit, straight);

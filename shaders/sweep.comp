@@ -78,7 +78,7 @@ void main() {
       size -= 1;
       continue;
     }
-    float leave = min(exit_distance(w, cell, size, at, rate), heights.w) + (3.0e-5 + 4.0e-7 * g);
+    float leave = min(exit_distance(w, cell, size, at, pace_of(rate)), heights.w) + (3.0e-5 + 4.0e-7 * g);
     float g1 = g < reach ? min(g + leave, reach) : g + leave;
     float theta2 = g * g * inverse_radius * inverse_radius;
     float drop = 0.5 * g * g * inverse_radius * (1.0 - theta2 * (1.0 / 12.0)) * (1.0 - 3.0e-5);

@@ -133,27 +133,16 @@ struct Cell {
 
 Cell cell_at(Window w, ivec2 cell, int level) {
   vec4 corners = four_posts(w, level_texel(w, cell, level), level);
+  bvec4 voids = lessThan(corners, vec4(void_threshold));
+  vec4 floors = mix(vec4(-1.0e9), corners, voids);
+  float top = max(max(floors.x, floors.y), max(floors.z, floors.w)) + void_offset;
   float a = corners.w, b = corners.z, c = corners.x, d = corners.y;
   Cell r;
-  float low = min(min(a, b), min(c, d));
-  if (low < void_threshold) {
-    float top = -1.0e9;
-    if (a < void_threshold) top = max(top, a + void_offset);
-    if (b < void_threshold) top = max(top, b + void_offset);
-    if (c < void_threshold) top = max(top, c + void_offset);
-    if (d < void_threshold) top = max(top, d + void_offset);
-    r.h00 = over_eye(top);
-    r.dx = 0.0;
-    r.dy = 0.0;
-    r.dxy = 0.0;
-    r.unknown = true;
-  } else {
-    r.h00 = over_eye(a);
-    r.dx = b - a;
-    r.dy = c - a;
-    r.dxy = (d - c) - (b - a);
-    r.unknown = false;
-  }
+  r.unknown = any(voids);
+  r.h00 = over_eye(r.unknown ? top : a);
+  r.dx = r.unknown ? 0.0 : b - a;
+  r.dy = r.unknown ? 0.0 : c - a;
+  r.dxy = r.unknown ? 0.0 : (d - c) - (b - a);
   return r;
 }
 
@@ -184,12 +173,17 @@ vec2 cell_ahead(vec2 at, vec2 rate) {
 // is still in the loop stores nothing); ten times the steps of the longest ray.
 const int step_limit = 30000;
 
-// Distance along the track (in the unit of 1/rate) until the point leaves the node.
-float exit_distance(Window w, ivec2 cell, int level, vec2 at, vec2 rate) {
+// Distance a post of way across takes, in the unit of 1/rate. Who hardly moves takes 1e20, never less
+// than nothing.
+vec2 pace_of(vec2 rate) {
+  const vec2 least = vec2(1.0e-20);
+  return 1.0 / mix(max(rate, least), min(rate, -least), lessThan(rate, vec2(0.0)));
+}
+
+// Distance along the track until the point leaves the node.
+float exit_distance(Window w, ivec2 cell, int level, vec2 at, vec2 pace) {
   vec2 low = vec2(level_low(w, cell, level));
-  vec2 edge = low + vec2(greaterThan(rate, vec2(0.0))) * float(1 << level);
-  vec2 safe_rate = mix(rate, vec2(1.0e-20), lessThan(abs(rate), vec2(1.0e-20)));
-  vec2 steps = (edge - at) / safe_rate;
-  steps = mix(steps, vec2(1.0e20), lessThan(abs(rate), vec2(1.0e-20)));
-  return max(min(steps.x, steps.y), 0.0);
+  vec2 edge = low + vec2(greaterThan(pace, vec2(0.0))) * float(1 << level);
+  vec2 ways = (edge - at) * pace;
+  return max(min(ways.x, ways.y), 0.0);
 }

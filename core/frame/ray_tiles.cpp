@@ -31,6 +31,16 @@ double reach_px_of(const RaySharing& sharing) {
   return std::min(sharing.bound_px + neighbour_px, farthest_witness_px);
 }
 
+/// Width of the border in which every pixel has its own ray: no witness is looked for farther off.
+/// Rasterisers that compute shade squares of 4 x 4 pixels, so tiles begin on their edges, unless
+/// the picture is so small that the wider border is a good part of it.
+int ring_of(double reach_px, const Camera& camera) {
+  constexpr int square_px = 4, smallest_part = 32;
+  const int needed = static_cast<int>(reach_px) + 1;
+  const int whole = (needed + square_px - 1) / square_px * square_px;
+  return smallest_part * whole <= std::min(camera.width_px, camera.height_px) ? whole : needed;
+}
+
 class TilePlan {
  public:
   TilePlan(const Camera& camera, const RaySharing& sharing, const RayTileTables& tables,
@@ -186,7 +196,7 @@ RayTilePlan plan_ray_tiles(const TerrainKeeper& terrain, const LocalFrame& local
                            const Camera& camera, const RaySharing& sharing,
                            const RayTileTables& tables, const TileCut& cut) {
   const double reach_px = reach_px_of(sharing);
-  const int ring_px = std::max(static_cast<int>(reach_px) + 1, cut.from_px > 0 ? cut_ring_px : 0);
+  const int ring_px = std::max(ring_of(reach_px, camera), cut.from_px > 0 ? cut_ring_px : 0);
   const bool polar = terrain.lattice().polar();  // its blocks have no east and north
   const bool small = std::min(camera.width_px, camera.height_px - cut.from_px) < 4 * ring_px;
   const bool surveyed = !polar && !sharing.every_pixel;

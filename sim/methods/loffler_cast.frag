@@ -39,7 +39,7 @@ float cast_ray(Ray r, float start) {
     ivec2 cell = ivec2(cell_ahead(at, rate));
     int level = level_of(cell, cell + 1, 0);
     size = clamp(size, level, level + node_levels);
-    float exit = min(exit_distance(w, cell, size, at, rate), heights.w);
+    float exit = min(exit_distance(w, cell, size, at, pace_of(rate)), heights.w);
     float leave = exit + 3.0e-5 + 4.0e-7 * t;
     if (size > level) {
       ivec2 low = level_low(w, cell, size);

@@ -71,6 +71,7 @@ int rays_of_sound(const Land& land, const Shared& wanted) {
   EXPECT_EQ(summary.frames - summary.removed_frames, drawn);
   EXPECT_EQ(summary.violations(), 0U) << (summary.details.empty() ? "" : summary.details.front());
   EXPECT_LE(summary.undecided, summary.pixels / 1000);
+  EXPECT_LE(summary.errors.max_of_proven(), 1.0);
   EXPECT_GE(drawn, 2U);
   return rays;
 }

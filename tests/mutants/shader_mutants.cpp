@@ -125,8 +125,8 @@ constexpr Mutant table[] = {
      "the polar chart is turned the wrong way", "polar"},
 
     // --- march of a ray ---
-    {"steps_of_any_length", rays, "min(exit_distance(w, cell, size, at, rate), heights.w)",
-     "exit_distance(w, cell, size, at, rate)", "steps longer than the straight exit allows",
+    {"steps_of_any_length", rays, "min(exit_distance(w, cell, size, at, pace), heights.w)",
+     "exit_distance(w, cell, size, at, pace)", "steps longer than the straight exit allows",
      "bent_cast"},
     {"nudge_a_hundredfold", rays, "float nudge = 3.0e-5 + 4.0e-7 * t;",
      "float nudge = 3.0e-3 + 4.0e-5 * t;", "a hundred times too far past the edge of a cell",
@@ -184,8 +184,9 @@ constexpr Mutant table[] = {
     {"no_twist", ray, "float h0 = c.h00 + c.dx * f.x + c.dy * f.y + c.dxy * f.x * f.y;",
      "float h0 = c.h00 + c.dx * f.x + c.dy * f.y;", "a cell is a plane through three posts",
      "near"},
-    {"triangles", terrain, "r.dxy = (d - c) - (b - a);",
-     "r.dxy = 0.0; r.dx = 0.5 * (b - a + d - c); r.dy = 0.5 * (c - a + d - b);",
+    {"triangles", terrain, "r.dxy = r.unknown ? 0.0 : (d - c) - (b - a);",
+     "r.dxy = 0.0;\n"
+     "  if (!r.unknown) { r.dx = 0.5 * (b - a + d - c); r.dy = 0.5 * (c - a + d - b); }",
      "a cell is a plane", "near"},
     {"filter_weights_of_8_bits", ray,
      "vec3 gap_along(Cell c, vec2 f, vec2 rate, float height, float climb, float bend) {",
@@ -207,15 +208,14 @@ constexpr Mutant table[] = {
      "posts across the seam of the toroidal memory are not found", "far"},
     {"pyramid_corner_off", terrain, "(posts.y >> 1) - (posts.y >> (level - 1))",
      "(posts.y >> 1) - (posts.y >> level)", "one level of the pyramid is read as the next", "near"},
-    {"void_is_ground", terrain, "r.unknown = true;", "r.unknown = false;",
+    {"void_is_ground", terrain, "r.unknown = any(voids);", "r.unknown = false;",
      "unknown ground is drawn as known", "unknown"},
-    {"void_at_0_m", terrain, "if (low < void_threshold) {",
-     "if (a < void_threshold) a = 0.0;\n  if (b < void_threshold) b = 0.0;\n  if (c < "
-     "void_threshold) c = 0.0;\n"
-     "  if (d < void_threshold) d = 0.0;\n  if (false) {\n    low = 0.0;",
+    {"void_at_0_m", terrain, "bvec4 voids = lessThan(corners, vec4(void_threshold));",
+     "corners = mix(corners, vec4(0.0), lessThan(corners, vec4(void_threshold)));\n"
+     "  bvec4 voids = bvec4(false);",
      "a void post stands at 0 m", "unknown"},
-    {"void_seen_through", terrain, "r.h00 = over_eye(top);", "r.h00 = over_eye(-20000.0);",
-     "unknown ground is seen through", "unknown"},
+    {"void_seen_through", terrain, "over_eye(r.unknown ? top : a)",
+     "over_eye(r.unknown ? -20000.0 : a)", "unknown ground is seen through", "unknown"},
     {"pixel_corners", ray, "ray_origin.xyz + pixel.x * ray_dx.xyz",
      "ray_origin.xyz + (pixel.x - 0.5) * ray_dx.xyz", "rays through the left edges of pixels",
      "near"},

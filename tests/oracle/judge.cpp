@@ -261,6 +261,7 @@ void Judge::judge_soundness(double z, const ImagePoint& centre, bool measure,
   const double accuracy_px = std::min(0.01 * bound_px_, 0.002);
   if (search.done()) {
     search.refine(0, accuracy_px);
+    if (frame_.proven_px) search.search_within(*frame_.proven_px);
     judgement.error_px = search.radius_px();
     return;
   }

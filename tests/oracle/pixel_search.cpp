@@ -97,6 +97,16 @@ void PixelSearch::search_cross(double radius_px) {
   }
 }
 
+void PixelSearch::search_within(double radius_px) {
+  const auto most = static_cast<int>(2 * radius_px);
+  for (int j = -most; j <= most; ++j) {
+    for (int i = -most; i <= most && this->radius_px() > radius_px; ++i) {
+      const ImagePoint offset{0.5 * i, 0.5 * j};
+      if (size_of(offset) <= radius_px) add(offset);
+    }
+  }
+}
+
 void PixelSearch::refine(double share, double to_px) {
   for (int i = 0; i < claim_count; ++i) {
     const auto size = [&] { return size_of(smallest_[i]); };
