@@ -25,7 +25,7 @@ TEST_F(FlightRender, a_frame_proves_itself_and_keeps_its_promise) {
   EXPECT_GE(exchange_->latency.largest_ns(), exchange_->frame_time.quantile_ns(0.01) / 2);
   render_->dump();
   EXPECT_EQ(render_->dump_problem(), "");
-  const std::string verify = std::string(RIDGELINE_PROGRAM) + " verify " + folder_.file("last") +
+  const std::string verify = "'" RIDGELINE_PROGRAM "' verify " + folder_.file("last") +
                              " --terrain " + folder_.file("tiles") + " --pixels all";
   EXPECT_EQ(std::system(verify.c_str()), 0);
 }
@@ -143,7 +143,7 @@ TEST_F(FlightRender, a_dimmed_last_frame_says_so_and_is_judged_as_any_other) {
   const auto json = nlohmann::json::parse(stream, nullptr, false);
   EXPECT_EQ(json["display"]["luminance"], limits::default_night_luminance);
   EXPECT_EQ(json["display"]["declutter"], true);
-  const std::string verify = std::string(RIDGELINE_PROGRAM) + " verify " + folder_.file("last") +
+  const std::string verify = "'" RIDGELINE_PROGRAM "' verify " + folder_.file("last") +
                              " --terrain " + folder_.file("tiles") + " --pixels all";
   EXPECT_EQ(std::system(verify.c_str()), 0);
 }
