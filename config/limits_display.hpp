@@ -1,6 +1,7 @@
 #pragma once
-// What the picture keeps of its light by night. docs/architecture.md, section "Switches of the
-// pilot", has the rules.
+// What the picture keeps of its light by night (docs/architecture.md, section "Switches of the
+// pilot"), and when a window counts as hidden (section "Screens").
+#include <cstdint>
 
 namespace ridgeline::limits {
 
@@ -14,5 +15,8 @@ inline constexpr double default_night_luminance = 0.15;
 /// screen. Red words then have 2.5 % of the luminance of white by day; what is behind them, snow on
 /// its dark plate at the least level, has 0.5 %.
 inline constexpr double least_words_luminance = 0.10;
+
+/// A window that has taken pictures for so long and shown none of them is hidden.
+inline constexpr std::int64_t hidden_window_ns = 1'000'000'000;
 
 }  // namespace ridgeline::limits

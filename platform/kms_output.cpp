@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -36,19 +35,6 @@ struct DrawnBuffer {
   std::uint32_t memory = 0;
   std::uint32_t card_name = 0;
 };
-
-void draw_failure_picture(std::uint32_t* pixels, std::size_t stride, int width, int height) {
-  const double reach = failure_line_px(width) / 2.0;
-  for (int y = 0; y < height; ++y) {
-    const double falling = (y + 0.5) * width / height;
-    for (int x = 0; x < width; ++x) {
-      const bool line =
-          std::abs(x + 0.5 - falling) <= reach || std::abs(width - x - 0.5 - falling) <= reach;
-      pixels[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] =
-          line ? failure_colour : 0;
-    }
-  }
-}
 
 /// A monitor by mode setting: two buffers take turns, a third holds the failure picture.
 class KmsOutput final : public ScreenOutput {

@@ -18,6 +18,8 @@ class PictureCopy {
                             std::int64_t timeout_ns) const;
 
  private:
+  static void blit(int width_px, int height_px, const PictureTarget& target);
+  static void read(int width_px, int height_px, const PictureTarget& target);
   Framebuffer source_;
 };
 

@@ -32,7 +32,8 @@ Status check(const ScreenSettings& settings, ScreenDetail& detail) {
 ScreenMade make_output(const ScreenSettings& settings, ScreenDetail& detail) {
   switch (settings.kind) {
     case ScreenKind::window:
-      return make_window_output(settings, detail);
+      return settings.window_system == WindowSystem::wayland ? make_wayland_output(settings, detail)
+                                                             : make_x11_output(settings, detail);
     case ScreenKind::kms:
       return make_kms_output(settings, detail);
     case ScreenKind::surfaceless:
@@ -153,6 +154,10 @@ int Screen::height_px() const {
 
 const char* Screen::gl_description() const {
   return context_->description();
+}
+
+const char* Screen::last_words() const {
+  return output_->last_words();
 }
 
 const char* Screen::description() const {

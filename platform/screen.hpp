@@ -14,9 +14,12 @@ class PictureCopy;
 /// What the picture is shown on.
 enum class ScreenKind : std::uint8_t {
   surfaceless,  ///< nowhere: the picture stays in the renderer's target, to be read
-  window,       ///< a window of an X11 server
+  window,       ///< a window, see WindowSystem
   kms,          ///< a monitor, without any display server
 };
+
+/// Whose window it is; never guessed from what runs.
+enum class WindowSystem : std::uint8_t { x11, wayland };
 
 /// What an installer says about the screen. Texts are read by Screen::make() only.
 struct ScreenSettings {
@@ -25,9 +28,12 @@ struct ScreenSettings {
   int height_px = 0;  ///< 0 when, and only when, width_px is
   double refresh_hz = 0;                ///< kms: of the mode, within 0.5; 0: the fastest
   const char* card = "/dev/dri/card0";  ///< kms: the graphics card
-  const char* connector = "";       ///< kms: such as "HDMI-A-1"; empty: the first with a monitor
-  const char* x_display = "";       ///< window: such as ":0"; empty: what DISPLAY says
-  const char* title = "Ridgeline";  ///< window
+  const char* connector = "";  ///< kms: such as "HDMI-A-1"; empty: the first with a monitor
+  WindowSystem window_system = WindowSystem::x11;
+  const char* x_display = "";        ///< x11: such as ":0"; empty: what DISPLAY says
+  const char* wayland_display = "";  ///< wayland: such as "wayland-0" or the path of a socket;
+                                     ///< empty: what WAYLAND_DISPLAY says
+  const char* title = "Ridgeline";   ///< window
   std::int64_t gpu_timeout_ns = 500'000'000;   ///< until a picture must be finished
   std::int64_t flip_timeout_ns = 100'000'000;  ///< until the picture before must be shown
 };
@@ -41,8 +47,9 @@ struct ScreenDetail {
 /// The last picture known to be on the screen.
 struct ShownStamp {
   std::uint64_t picture = 0;  ///< which present() it was, from 1; 0: none yet
-  std::int64_t time_ns = 0;   ///< CLOCK_MONOTONIC; kms: of the vertical blank, as the kernel says
-  std::uint32_t vertical_blank = 0;  ///< kms: its number
+  std::int64_t time_ns = 0;   ///< CLOCK_MONOTONIC; kms: of the vertical blank, as the kernel says;
+                              ///< wayland: of the presentation, as the compositor says
+  std::uint32_t vertical_blank = 0;  ///< its number, where the kernel or compositor counts them
 };
 
 /// What the screen has done since it was made; counters only grow.
@@ -83,11 +90,12 @@ class Screen {
   /// Passing: gl_late, gl_error, screen_flip_late (the picture before is not shown yet; nothing is
   ///          drawn), screen_no_monitor, screen_not_ours, screen_refused, screen_small: call again.
   /// Final:   gl_context_lost (renew() next), screen_lost, screen_closed.
+  /// Hidden windows: pictures go on being taken; shown() stands still meanwhile.
   /// Cost:    blocks at most 2 flip_timeout_ns + gpu_timeout_ns; no allocation.
   [[nodiscard]] Status present(GLuint colour);
 
   /// Waits until the picture presented last is on the screen. Errors: screen_flip_late,
-  /// screen_lost.
+  /// screen_lost, screen_closed.
   [[nodiscard]] Status wait_shown();
   /// The last picture known to be shown; takes in what the kernel has told, without waiting.
   [[nodiscard]] ShownStamp shown();
@@ -109,6 +117,8 @@ class Screen {
   [[nodiscard]] const char* gl_description() const;
   /// Such as "kms /dev/dri/card0 Virtual-1 1024x768 60.00 Hz".
   [[nodiscard]] const char* description() const;
+  /// What the system said of a screen that is lost, in words; empty: nothing.
+  [[nodiscard]] const char* last_words() const;
 
   /// For tests on drivers that never lose a context: asked instead of glGetGraphicsResetStatus.
   using ResetStatus = GLenum (*)();

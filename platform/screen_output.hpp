@@ -12,6 +12,9 @@ namespace ridgeline {
 struct PictureTarget {
   bool none = false;  ///< nowhere: the picture stays where the renderer drew it
   GLuint framebuffer = 0;
+  /// A pixel pack buffer of the picture's size that takes its bytes (R, G, B, A; bottom row first)
+  /// in place of a framebuffer; 0: none.
+  GLuint bytes = 0;
   int x = 0, y = 0;        ///< of the picture's lower left corner
   bool clear = false;      ///< there is a border, which is black
   bool top_first = false;  ///< the target's row 0 is the top of the screen
@@ -39,6 +42,8 @@ class ScreenOutput {
   [[nodiscard]] virtual Status wait_shown() = 0;
   [[nodiscard]] virtual ShownStamp shown() = 0;
   virtual void show_failed() = 0;
+  /// What the system said of a screen that is lost, in words; empty: nothing.
+  [[nodiscard]] virtual const char* last_words() const { return ""; }
 
   [[nodiscard]] virtual int width_px() const = 0;
   [[nodiscard]] virtual int height_px() const = 0;
@@ -48,7 +53,8 @@ class ScreenOutput {
 /// Settings have passed Screen::make()'s checks. Errors: of Screen::make(), told in `detail`.
 using ScreenMade = Result<std::unique_ptr<ScreenOutput>>;
 [[nodiscard]] ScreenMade make_surfaceless_output(const ScreenSettings& settings);
-[[nodiscard]] ScreenMade make_window_output(const ScreenSettings& settings, ScreenDetail& detail);
+[[nodiscard]] ScreenMade make_x11_output(const ScreenSettings& settings, ScreenDetail& detail);
+[[nodiscard]] ScreenMade make_wayland_output(const ScreenSettings& settings, ScreenDetail& detail);
 [[nodiscard]] ScreenMade make_kms_output(const ScreenSettings& settings, ScreenDetail& detail);
 
 /// The failure picture: a cross from corner to corner on black; red, as XRGB8888.
@@ -56,6 +62,8 @@ inline constexpr std::uint32_t failure_colour = 0x00E00000;
 [[nodiscard]] constexpr int failure_line_px(int width_px) {
   return width_px / 64 > 3 ? width_px / 64 : 3;
 }
+/// Draws it by the CPU. Shape: height_px rows of width_px pixels, `stride` pixels apart.
+void draw_failure_picture(std::uint32_t* pixels, std::size_t stride, int width_px, int height_px);
 
 /// The clock that stamps pictures.
 [[nodiscard]] std::int64_t screen_time_ns();

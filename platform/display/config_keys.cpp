@@ -11,6 +11,7 @@ namespace {
 using C = DisplayConfig;
 
 constexpr std::string_view screen_words[] = {"surfaceless", "window", "kms"};
+constexpr std::string_view window_words[] = {"x11", "wayland"};
 constexpr std::string_view protocol_words[] = {"canaerospace", "arinc429", "canfix"};
 constexpr std::string_view header_words[] = {"strict", "field"};
 constexpr std::string_view heading_words[] = {"unknown", "true", "magnetic"};
@@ -18,6 +19,7 @@ constexpr std::string_view fine_words[] = {"add", "by-sign", "none"};
 
 constexpr std::size_t longest_interface = 15;  // bytes, as the kernel has it
 constexpr std::size_t longest_line = 31;
+constexpr std::size_t longest_socket = 107;
 constexpr std::size_t longest_path = 1'000;
 constexpr int longest_timeout_ms = 10'000;
 constexpr int highest_priority = 99;  // 0: not a real-time thread
@@ -98,8 +100,14 @@ const ConfigKey keys[] = {
     {"screen", "connector", false,
      TextKey{longest_line, false, at<&C::screen, &Screen::connector>}},
     {"screen", "refresh_hz", false, NumberKey{0.0, 240.0, at<&C::screen, &Screen::refresh_hz>}},
+    {"screen", "window_system", false,
+     ChoiceKey{
+         window_words,
+         [](C& c, std::size_t word) { c.screen.window_system = static_cast<WindowSystem>(word); }}},
     {"screen", "x_display", false,
      TextKey{longest_line, false, at<&C::screen, &Screen::x_display>}},
+    {"screen", "wayland_display", false,
+     TextKey{longest_socket, false, at<&C::screen, &Screen::wayland_display>}},
 
     {"terrain", "folder", true, TextKey{longest_path, true, at<&C::terrain, &Terrain::folder>}},
     {"terrain", "geoid", true, TextKey{longest_path, true, at<&C::terrain, &Terrain::geoid>}},

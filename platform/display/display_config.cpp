@@ -29,7 +29,9 @@ ScreenSettings screen_settings(const DisplayConfig& config) {
   settings.refresh_hz = config.screen.refresh_hz;
   settings.card = config.screen.card.c_str();
   settings.connector = config.screen.connector.c_str();
+  settings.window_system = config.screen.window_system;
   settings.x_display = config.screen.x_display.c_str();
+  settings.wayland_display = config.screen.wayland_display.c_str();
   settings.gpu_timeout_ns = config.timeouts.picture_ms * limits::ms_ns;
   settings.flip_timeout_ns = config.timeouts.picture_ms * limits::ms_ns;
   return settings;

@@ -41,7 +41,9 @@ struct DisplayConfig {
     std::string card = "/dev/dri/card0";
     std::string connector;
     double refresh_hz = 0;
+    WindowSystem window_system = WindowSystem::x11;
     std::string x_display;
+    std::string wayland_display;
   } screen;
 
   struct Terrain {

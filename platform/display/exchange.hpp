@@ -41,6 +41,7 @@ struct FrameFact {
   std::int64_t started_ns = 0;
   std::uint64_t late = 0;            ///< frames finished after their deadline
   std::uint64_t present_faults = 0;  ///< pictures that the screen did not take
+  std::uint64_t hidden = 0;          ///< pictures that a hidden window took
   std::uint64_t removed = 0;
   std::uint64_t degraded = 0;
   std::uint64_t ground_disagreements = 0;  ///< times the radio height began to contradict

@@ -192,7 +192,7 @@ void RenderThread::draw(std::int64_t due_ns) {
   const std::int64_t finished_ns = monotonic_now_ns();
   fact_.proof.deadline_ns = due_ns + period_ns_;
   judge(started_ns, finished_ns, presented);
-  note_latency();
+  note_shown(finished_ns, presented);
   tell_change(before);
   exchange_.frame_time.add(finished_ns - started_ns);
   exchange_.frame.write(fact_);
@@ -204,8 +204,10 @@ Fault RenderThread::present() {
   const GLuint picture = on ? scene_->renderer().names().colour : blank_.name();
   const Fault fault = screen_->present(picture).fault();
   if (fault != present_fault_) {
+    const char* words = screen_->last_words();
     exchange_.render_log.tell(fault == Fault::none ? LogLevel::note : LogLevel::caution,
-                              "screen: %s", fault_text(fault).data());
+                              "screen: %s%s%s", fault_text(fault).data(),
+                              *words == '\0' ? "" : ": ", words);
     present_fault_ = fault;
   }
   if (fault == Fault::none) {
@@ -247,9 +249,26 @@ void RenderThread::judge(std::int64_t started_ns, std::int64_t finished_ns, Faul
   if (fact_.first_terrain_ns == 0 && mode != Mode::removed) fact_.first_terrain_ns = finished_ns;
 }
 
-/// Counts each attitude once: with the picture that shows it first, when that is on the screen.
-void RenderThread::note_latency() {
+/// A hidden window takes pictures and shows none. That is no fault, and is not to go unsaid.
+void RenderThread::note_shown(std::int64_t now_ns, Fault presented) {
   const ShownStamp stamp = screen_->shown();
+  const bool all = stamp.picture == screen_->health().presented;
+  if (all || presented != Fault::none || stamp.picture != picture_told_ || seen_ns_ == 0) {
+    seen_ns_ = now_ns;
+  }
+  const bool hidden = now_ns - seen_ns_ > limits::hidden_window_ns;
+  if (hidden) ++fact_.hidden;
+  if (hidden != hidden_) {
+    exchange_.render_log.tell(
+        LogLevel::note, "screen: %s",
+        hidden ? "the window is hidden: it takes pictures and shows none" : "shows pictures again");
+  }
+  hidden_ = hidden;
+  note_latency(stamp);
+}
+
+/// Counts each attitude once: with the picture that shows it first, when that is on the screen.
+void RenderThread::note_latency(const ShownStamp& stamp) {
   if (stamp.picture == picture_told_) return;
   picture_told_ = stamp.picture;
   const Shown& shown = on_the_way_[stamp.picture % on_the_way_.size()];

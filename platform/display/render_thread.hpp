@@ -62,7 +62,8 @@ class RenderThread {
   Fault present();
   [[nodiscard]] int newly_decoded();
   void judge(std::int64_t started_ns, std::int64_t finished_ns, Fault presented);
-  void note_latency();
+  void note_shown(std::int64_t now_ns, Fault presented);
+  void note_latency(const ShownStamp& stamp);
   void tell_change(const Availability& before);
   void close();
 
@@ -86,6 +87,8 @@ class RenderThread {
   std::int64_t attitude_ns_ = 0, newest_input_ns_ = 0;
   std::array<Shown, 4> on_the_way_{};
   std::uint64_t picture_told_ = 0;
+  std::int64_t seen_ns_ = 0;  ///< when the screen last showed all that it had taken, or more of it
+  bool hidden_ = false;
   std::int64_t attitude_told_ns_ = 0;
   Fault present_fault_ = Fault::none;
   std::vector<float> range_m_;

@@ -46,6 +46,7 @@ void add_frames(JsonText& json, const Exchange& exchange, const FrameFact& frame
   json.add("degraded", frame.degraded);
   json.add("removed", frame.removed);
   json.add("present_faults", frame.present_faults);
+  json.add("hidden", frame.hidden);
   json.add("mode", mode_word(frame.availability.mode));
   json.open_list("reasons");
   for (const Reason reason : frame.availability.reasons) json.add(nullptr, reason_word(reason));

@@ -178,7 +178,7 @@ TEST(PaperTables, the_script_changes_what_stands_between_its_marks_alone) {
   const std::string marks =
       "<!-- comparison -->\nold\n<!-- /comparison -->\n<!-- ammann -->\n"
       "<!-- /ammann -->\n";
-  const std::string command = std::string(PAPER_TABLES) + " -p " + program + " -o " +
+  const std::string command = "'" PAPER_TABLES "' -p " + program + " -o " +
                               folder.file("evidence") + " -t comparison -t ammann /some/map.png" +
                               " --views 3 2>" + folder.file("log");
   write_text(document, words + marks + more);

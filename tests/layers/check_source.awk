@@ -101,5 +101,9 @@ FNR > longest_lines && !too_long {
 }
 FILENAME ~ /\.(cpp|hpp|h)$/ && room != "" {
   if ($0 ~ /^[ \t]*#[ \t]*include[ \t]*[<"]/) check_include($0)
-  if (room ~ /^core\//) check_words($0 ~ /^[ \t]*#[ \t]*include/ ? $0 : code_of($0))
+  code = $0 ~ /^[ \t]*#[ \t]*include/ ? $0 : code_of($0)
+  if (room ~ /^core\//) check_words(code)
+  if (code ~ /(^|[^A-Za-z0-9_])(set|new|use)?locale($|[^A-Za-z0-9_])/) {
+    breach("names a locale: numbers are written and read the same in every country")
+  }
 }

@@ -44,7 +44,7 @@ TEST_F(RigDisplay, a_flight_on_the_bus_is_drawn_and_a_silent_bus_is_not) {
   EXPECT_GT(status["latency_ms"]["count"], 0);
   EXPECT_GT(status["lines"]["heartbeat_edges"], 2);
   EXPECT_GT(status["boot_to_first_frame_ms"], 0.0);
-  EXPECT_TRUE(rig::shell(std::string(RIDGELINE_PROGRAM) + " verify " + installed_.file("last") +
+  EXPECT_TRUE(rig::shell("'" RIDGELINE_PROGRAM "' verify " + installed_.file("last") +
                          " --terrain " + installed_.file("tiles") + " --pixels all"))
       << "the last frame must keep its promise";
   std::cout << status.dump(1) << "\n" << program.told();

@@ -66,6 +66,9 @@ void Installation::configure(const InstallationSettings& s) const {
       << "\nhorizontal_field_of_view_deg = 60\nrate_hz = " << s.rate_hz
       << "\nrange_km = " << s.range_km << "\n";
   out << "[screen]\nkind = " << quoted(s.screen) << "\ncard = " << quoted(s.card) << "\n";
+  if (!s.wayland_display.empty()) {
+    out << "window_system = \"wayland\"\nwayland_display = " << quoted(s.wayland_display) << "\n";
+  }
   out << "[monitor]\non = " << (s.monitor_on ? "true" : "false") << "\ndeadline_ms = 10000\n";
   out << "[terrain]\nfolder = " << quoted(s.terrain) << "\ngeoid = " << quoted(s.geoid)
       << "\nhome_latitude_deg = " << home_latitude_deg

@@ -15,6 +15,7 @@ bool is_emulated();
 /// What an installation of the flight program may be told otherwise.
 struct InstallationSettings {
   std::string terrain = "tiles", geoid = "none", screen = "surfaceless", card = "/dev/dri/card0";
+  std::string wayland_display;  ///< of a window; empty: of no compositor
   std::vector<std::string> buses = {"rig0"};
   std::string heartbeat = "rig-beat";
   int width_px = 64, height_px = 48;

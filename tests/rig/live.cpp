@@ -231,7 +231,7 @@ int fly(const Arguments& arguments) {
   }
   std::printf("%s\n", run.told().c_str());
   std::fflush(stdout);
-  good = shell(std::string(RIDGELINE_PROGRAM) + " verify " + folder.file("last") + " --terrain " +
+  good = shell("'" RIDGELINE_PROGRAM "' verify " + folder.file("last") + " --terrain " +
                arguments.terrain + " --geoid " + arguments.geoid + " --pixels 20000") &&
          good;
   std::printf("live: %s\n", good ? "passed" : "FAILED");

@@ -24,6 +24,7 @@ Result<Screen> open_at(const char* server, ScreenDetail& detail) {
   settings.width_px = width;
   settings.height_px = height;
   settings.x_display = server;
+  settings.gpu_timeout_ns = 5'000'000'000;
   settings.flip_timeout_ns = 2'000'000'000;  // tests run on busy machines
   return Screen::make(settings, detail);
 }

@@ -4,7 +4,8 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
+
+#include "tests/screen/seen_pixels.hpp"
 
 namespace ridgeline::test {
 
@@ -22,16 +23,8 @@ class XServer {
   void stop() const;
   void go_on() const;
 
-  /// The only window; what is in it, row by row from the top, as 0x??RRGGBB.
-  struct Pixels {
-    int width_px = 0, height_px = 0;
-    std::vector<std::uint32_t> rows;
-    [[nodiscard]] std::uint32_t at(int x, int y) const {
-      return rows[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
-                  static_cast<std::size_t>(x)] &
-             0xFFFFFF;
-    }
-  };
+  using Pixels = SeenPixels;
+  /// The only window.
   [[nodiscard]] Pixels window_pixels();
   /// A pixel of the window has this colour within a second; for what was asked without an answer.
   [[nodiscard]] bool becomes(int x, int y, std::uint32_t colour);

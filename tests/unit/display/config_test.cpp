@@ -117,6 +117,24 @@ TEST_F(ConfigFile, the_night_has_a_level_and_the_wheels_a_rule) {
   expect_refused("picture.night_luminance", "is not a number from 0.05 to 1");
 }
 
+TEST_F(ConfigFile, a_window_is_of_x11_unless_configured_otherwise) {
+  Values values = required();
+  values["screen"]["kind"] = "\"window\"";
+  write(values);
+  DisplayConfig config = loaded();
+  EXPECT_EQ(screen_settings(config).window_system, WindowSystem::x11);
+  values["screen"]["window_system"] = "\"wayland\"";
+  values["screen"]["wayland_display"] = "\"/run/somewhere/wayland-3\"";
+  write(values);
+  config = loaded();
+  EXPECT_EQ(screen_settings(config).kind, ScreenKind::window);
+  EXPECT_EQ(screen_settings(config).window_system, WindowSystem::wayland);
+  EXPECT_STREQ(screen_settings(config).wayland_display, "/run/somewhere/wayland-3");
+  values["screen"]["window_system"] = "\"auto\"";
+  write(values);
+  expect_refused("screen.window_system", "is not one of \"x11\", \"wayland\"");
+}
+
 /// No configuration that is accepted meets a limit of the monitor in flight.
 TEST_F(ConfigFile, every_rate_gives_a_deadline_that_the_monitor_takes) {
   for (const char* rate_hz : {"0.1", "120"}) {

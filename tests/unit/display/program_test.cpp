@@ -23,7 +23,7 @@ struct Ended {
 
 Ended display(const std::string& arguments) {
   Ended ended;
-  FILE* pipe = ::popen((std::string(DISPLAY_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = ::popen(("'" DISPLAY_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return ended;
   std::array<char, 512> text{};
   while (std::fgets(text.data(), text.size(), pipe) != nullptr) ended.told += text.data();
@@ -33,7 +33,7 @@ Ended display(const std::string& arguments) {
 }
 
 TEST(DisplayProgram, a_good_configuration_is_checked_in_silence) {
-  const Ended ended = display("--check-config " CONFIG_FOLDER "/bench.toml");
+  const Ended ended = display("--check-config '" CONFIG_FOLDER "/bench.toml'");
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.told, "");
 }

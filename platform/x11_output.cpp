@@ -33,10 +33,10 @@ std::array<std::uint32_t, 18> size_hints(std::uint32_t width, std::uint32_t heig
 }
 
 /// A window of an X11 server. Through xcb, which tells of a lost server; Xlib ends the program.
-class WindowOutput final : public ScreenOutput {
+class X11Output final : public ScreenOutput {
  public:
-  WindowOutput() = default;
-  ~WindowOutput() override {
+  X11Output() = default;
+  ~X11Output() override {
     if (server_ != nullptr) xcb_disconnect(server_);  // the server then frees what was made there
   }
   Status open(const ScreenSettings& settings, ScreenDetail& detail);
@@ -89,14 +89,14 @@ class WindowOutput final : public ScreenOutput {
   char description_[120] = {};
 };
 
-xcb_atom_t WindowOutput::atom(const char* name) {
+xcb_atom_t X11Output::atom(const char* name) {
   const auto asked =
       xcb_intern_atom(server_, 0, static_cast<std::uint16_t>(std::strlen(name)), name);
   const Reply<xcb_intern_atom_reply_t> reply(xcb_intern_atom_reply(server_, asked, nullptr));
   return reply == nullptr ? static_cast<xcb_atom_t>(XCB_ATOM_NONE) : reply->atom;
 }
 
-Status WindowOutput::open(const ScreenSettings& settings, ScreenDetail& detail) {
+Status X11Output::open(const ScreenSettings& settings, ScreenDetail& detail) {
   const char* name = *settings.x_display == '\0' ? nullptr : settings.x_display;
   const char* told = name != nullptr ? name : std::getenv("DISPLAY");
   int number = 0;
@@ -126,7 +126,7 @@ Status WindowOutput::open(const ScreenSettings& settings, ScreenDetail& detail) 
   return gone();
 }
 
-void WindowOutput::make_window(const char* title) {
+void X11Output::make_window(const char* title) {
   const auto width = static_cast<std::uint16_t>(width_px_);
   const auto height = static_cast<std::uint16_t>(height_px_);
   const std::array<std::uint32_t, 2> values{screen_->black_pixel, XCB_EVENT_MASK_STRUCTURE_NOTIFY};
@@ -148,7 +148,7 @@ void WindowOutput::make_window(const char* title) {
 
 /// Until the window is there, what is drawn would be lost. Not for ever: a window manager may keep
 /// it hidden, and show it later with the picture of then.
-void WindowOutput::wait_mapped(std::int64_t timeout_ns) {
+void X11Output::wait_mapped(std::int64_t timeout_ns) {
   const std::int64_t deadline_ns = screen_time_ns() + timeout_ns;
   while (xcb_connection_has_error(server_) == 0 && screen_time_ns() < deadline_ns) {
     const Reply<xcb_generic_event_t> event(xcb_poll_for_event(server_));
@@ -163,7 +163,7 @@ void WindowOutput::wait_mapped(std::int64_t timeout_ns) {
 }
 
 /// Drawn once and kept by the server, which can then show it when this program's OpenGL cannot.
-void WindowOutput::draw_failure_picture() {
+void X11Output::draw_failure_picture() {
   const auto width = static_cast<std::uint16_t>(width_px_);
   const auto height = static_cast<std::uint16_t>(height_px_);
   failure_ = xcb_generate_id(server_);
@@ -185,7 +185,7 @@ void WindowOutput::draw_failure_picture() {
   xcb_flush(server_);
 }
 
-Status WindowOutput::attach(EglContext& context, ScreenDetail& detail) {
+Status X11Output::attach(EglContext& context, ScreenDetail& detail) {
   context_ = &context;
   if (opened_) return {};  // a new context draws to the same EGL surface
   if (const Status opened = context.open_window(&window_); !opened) {
@@ -196,14 +196,14 @@ Status WindowOutput::attach(EglContext& context, ScreenDetail& detail) {
   return {};
 }
 
-void WindowOutput::take_events() {
+void X11Output::take_events() {
   while (xcb_generic_event_t* next = xcb_poll_for_event(server_)) {
     const Reply<xcb_generic_event_t> event(next);
     take(*event);
   }
 }
 
-void WindowOutput::take(const xcb_generic_event_t& event) {
+void X11Output::take(const xcb_generic_event_t& event) {
   switch (event.response_type & 0x7f) {
     case XCB_CONFIGURE_NOTIFY: {
       const auto& now = reinterpret_cast<const xcb_configure_notify_event_t&>(event);
@@ -225,13 +225,13 @@ void WindowOutput::take(const xcb_generic_event_t& event) {
 }
 
 /// The server answers in order: with the answer it has also shown what was sent before.
-Status WindowOutput::ask() {
+Status X11Output::ask() {
   question_ = xcb_get_input_focus(server_);
   asked_ = true;
   return xcb_flush(server_) > 0 ? Fault::none : Fault::screen_lost;
 }
 
-bool WindowOutput::take_answer() {
+bool X11Output::take_answer() {
   void* reply = nullptr;
   xcb_generic_error_t* error = nullptr;
   if (xcb_poll_for_reply(server_, question_.sequence, &reply, &error) == 0) return false;
@@ -244,12 +244,12 @@ bool WindowOutput::take_answer() {
   return true;
 }
 
-ShownStamp WindowOutput::shown() {
+ShownStamp X11Output::shown() {
   if (asked_) take_answer();
   return shown_;
 }
 
-Status WindowOutput::wait_shown() {
+Status X11Output::wait_shown() {
   const std::int64_t deadline_ns = screen_time_ns() + flip_timeout_ns_;
   take_events();
   while (asked_ && !take_answer()) {
@@ -263,7 +263,7 @@ Status WindowOutput::wait_shown() {
   return gone();
 }
 
-Result<PictureTarget> WindowOutput::begin() {
+Result<PictureTarget> X11Output::begin() {
   if (const Status waited = wait_shown(); !waited) return waited.fault();
   // Asked once more, now: the driver will ask the server for the window's size and wait without
   // end.
@@ -277,7 +277,7 @@ Result<PictureTarget> WindowOutput::begin() {
   return target;
 }
 
-Status WindowOutput::show(std::uint64_t picture) {
+Status X11Output::show(std::uint64_t picture) {
   if (failed_) {
     xcb_change_window_attributes(server_, window_, XCB_CW_BACK_PIXEL, &screen_->black_pixel);
     failed_ = false;
@@ -287,7 +287,7 @@ Status WindowOutput::show(std::uint64_t picture) {
   return ask();
 }
 
-void WindowOutput::show_failed() {
+void X11Output::show_failed() {
   if (xcb_connection_has_error(server_) != 0) return;
   failed_ = true;
   // As the window's ground the server itself draws it again after the window was covered.
@@ -298,8 +298,8 @@ void WindowOutput::show_failed() {
 
 }  // namespace
 
-ScreenMade make_window_output(const ScreenSettings& settings, ScreenDetail& detail) {
-  auto made = std::make_unique<WindowOutput>();
+ScreenMade make_x11_output(const ScreenSettings& settings, ScreenDetail& detail) {
+  auto made = std::make_unique<X11Output>();
   if (const Status opened = made->open(settings, detail); !opened) return opened.fault();
   return {std::move(made)};
 }
