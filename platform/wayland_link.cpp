@@ -16,8 +16,6 @@
 namespace ridgeline {
 namespace {
 
-constexpr std::int64_t boot_limit_ns = 2'000'000'000;
-
 /// What libwayland said last, on the thread that has the screen: of a fault of the protocol it is
 /// the compositor's own text.
 thread_local std::array<char, 120> said{};

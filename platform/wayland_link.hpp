@@ -22,6 +22,9 @@ namespace ridgeline {
 /// Rules: one thread; stays where it was opened, for libwayland knows its address.
 class WaylandLink {
  public:
+  /// What a question at boot may take to be answered.
+  static constexpr std::int64_t boot_limit_ns = 2'000'000'000;
+
   WaylandLink() = default;
   WaylandLink(const WaylandLink&) = delete;
   WaylandLink& operator=(const WaylandLink&) = delete;

@@ -130,7 +130,8 @@ Status WaylandOutput::open(const ScreenSettings& settings, ScreenDetail& detail)
                 link_.presentation() == nullptr ? ", which does not tell when it shows" : "");
   window_.put(buffers_.handed_over(buffers_.free_one()));
   link_.ask();
-  if (link_.wait([&] { return link_.answered(); }, screen_time_ns() + 2'000'000'000)) return {};
+  if (link_.wait([&] { return link_.answered(); }, screen_time_ns() + WaylandLink::boot_limit_ns))
+    return {};
   std::snprintf(detail.text, sizeof detail.text, "%s: the compositor %s", description_,
                 link_.lost() ? link_.last_words() : "does not answer");
   return Fault::screen_missing;

@@ -4,15 +4,8 @@
 #include <xdg-shell-client-protocol.h>
 
 #include <cstdio>
-#include <utility>
 
 namespace ridgeline {
-namespace {
-
-constexpr std::int64_t boot_limit_ns = 2'000'000'000;
-
-}  // namespace
-
 struct WaylandWindow::Events {
   static WaylandWindow& window(void* data) { return *static_cast<WaylandWindow*>(data); }
   static void size(void* data, xdg_toplevel* /*toplevel*/, std::int32_t width, std::int32_t height,
@@ -66,7 +59,7 @@ Status WaylandWindow::open(WaylandLink& link, int width_px, int height_px, const
   xdg_toplevel_set_min_size(window_, width_px, height_px);
   xdg_toplevel_set_max_size(window_, width_px, height_px);
   wl_surface_commit(surface_);  // without a picture: asks what size the window may have
-  if (link.wait([&] { return ready_; }, screen_time_ns() + boot_limit_ns)) return {};
+  if (link.wait([&] { return ready_; }, screen_time_ns() + WaylandLink::boot_limit_ns)) return {};
   if (link.lost()) {
     std::snprintf(detail.text, sizeof detail.text, "the compositor at \"%.60s\" has gone: %s",
                   link.name(), link.last_words());
@@ -87,7 +80,7 @@ Status WaylandWindow::open(WaylandLink& link, int width_px, int height_px, const
 /// an error of the protocol that ends the connection, is left unanswered, which the protocol allows
 /// as long as a later one is answered; and the compositor is asked, once, to take it back.
 void WaylandWindow::take_size(std::uint32_t serial) {
-  if (size_fits()) {
+  if (size_fits(scale_)) {
     xdg_surface_ack_configure(shell_surface_, serial);
     ready_ = true;
     refused_ = false;
@@ -100,8 +93,8 @@ void WaylandWindow::take_size(std::uint32_t serial) {
 }
 
 /// A maximized window has the very size it is told, a fullscreen one has at most that.
-bool WaylandWindow::size_fits() const {
-  const int width = width_px_ / scale_, height = height_px_ / scale_;
+bool WaylandWindow::size_fits(int scale) const {
+  const int width = width_px_ / scale, height = height_px_ / scale;
   if (wanted_width_ == 0 || wanted_height_ == 0) return true;
   if (maximized_ && (wanted_width_ != width || wanted_height_ != height)) return false;
   return !fullscreen_ || (wanted_width_ >= width && wanted_height_ >= height);
@@ -112,13 +105,8 @@ bool WaylandWindow::size_fits() const {
 void WaylandWindow::apply_scale() {
   int scale = link_->scale();
   if (width_px_ % scale != 0 || height_px_ % scale != 0) scale = 1;
-  if (scale == scale_) return;
-  std::swap(scale, scale_);
-  if (!size_fits()) {  // what the compositor was promised stands
-    scale_ = scale;
-    return;
-  }
-  scale = scale_;
+  if (scale == scale_ || !size_fits(scale)) return;  // what the compositor was promised stands
+  scale_ = scale;
   wl_surface_set_buffer_scale(surface_, scale);
   xdg_toplevel_set_min_size(window_, width_px_ / scale, height_px_ / scale);
   xdg_toplevel_set_max_size(window_, width_px_ / scale, height_px_ / scale);

@@ -34,7 +34,7 @@ class WaylandWindow {
  private:
   struct Events;
   void take_size(std::uint32_t serial);
-  [[nodiscard]] bool size_fits() const;
+  [[nodiscard]] bool size_fits(int scale) const;
   void apply_scale();
 
   WaylandLink* link_ = nullptr;

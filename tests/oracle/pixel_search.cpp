@@ -97,12 +97,12 @@ void PixelSearch::search_cross(double radius_px) {
   }
 }
 
-void PixelSearch::search_within(double radius_px) {
-  const auto most = static_cast<int>(2 * radius_px);
+void PixelSearch::search_within(double within_px) {
+  const auto most = static_cast<int>(2 * within_px);
   for (int j = -most; j <= most; ++j) {
-    for (int i = -most; i <= most && this->radius_px() > radius_px; ++i) {
+    for (int i = -most; i <= most && radius_px() > within_px; ++i) {
       const ImagePoint offset{0.5 * i, 0.5 * j};
-      if (size_of(offset) <= radius_px) add(offset);
+      if (size_of(offset) <= within_px) add(offset);
     }
   }
 }

@@ -73,7 +73,7 @@ class PixelSearch {
   void search_cross(double radius_px);
   /// Where the radius is larger, points half a pixel apart as far as that. Crosses find a disc, not
   /// the smallest; whoever shows several pixels one ray has it at such a point.
-  void search_within(double radius_px);
+  void search_within(double within_px);
   /// Looks closer to the centre, in several directions, until the radius is known to a share of
   /// itself or to a number of pixels. Domain: done().
   void refine(double share, double to_px);

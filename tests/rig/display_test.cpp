@@ -155,16 +155,7 @@ TEST_F(RigDisplay, a_thread_that_hangs_ends_the_heartbeat_and_fails) {
 
 TEST_F(RigDisplay, a_monitor_shows_the_flight) {
   if (!std::filesystem::exists("/dev/dri/card0")) GTEST_SKIP() << "this kernel has no card";
-  // The smallest mode of the simulated card, as slow as it has to be in emulation.
-  InstallationSettings settings;
-  settings.screen = "kms";
-  settings.width_px = 640;
-  settings.height_px = 480;
-  settings.rate_hz = is_emulated() ? 0.1 : 1;
-  settings.range_km = 4;
-  settings.attitude_ms = settings.position_ms = settings.picture_ms = 10'000;
-  settings.monitor_on = false;
-  installed_.configure(settings);
+  installed_.configure(monitor_settings());
   Process program(installed_.program(), installed_.file("errors"));
   Process player(installed_.player(), installed_.file("player"));
   ASSERT_TRUE(booted(program)) << program.told();

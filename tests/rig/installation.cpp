@@ -49,6 +49,18 @@ std::string quoted(const std::vector<std::string>& texts) {
 
 }  // namespace
 
+InstallationSettings monitor_settings() {
+  InstallationSettings settings;
+  settings.screen = "kms";
+  settings.width_px = 640;
+  settings.height_px = 480;
+  settings.rate_hz = is_emulated() ? 0.1 : 1;
+  settings.range_km = 4;
+  settings.attitude_ms = settings.position_ms = settings.picture_ms = 10'000;
+  settings.monitor_on = false;
+  return settings;
+}
+
 bool is_emulated() {
   return std::getenv("RIG_EMULATED") != nullptr;
 }

@@ -30,6 +30,9 @@ struct InstallationSettings {
   std::string more;  ///< lines at the end
 };
 
+/// On the simulated card's monitor, in its smallest mode, as slow as it has to be in emulation.
+InstallationSettings monitor_settings();
+
 /// A line of a recorded bus without its time: false drops the frame. `data` may be changed.
 using FrameEdit = std::function<bool(const std::string& id, std::string& data)>;
 

@@ -229,15 +229,7 @@ TEST_F(RigService, what_the_unit_grants_and_what_it_takes_away_are_in_force) {
 
 TEST_F(RigService, a_monitor_can_be_had_under_the_unit) {
   ASSERT_TRUE(std::filesystem::exists("/dev/dri/card0"));
-  InstallationSettings settings;
-  settings.screen = "kms";
-  settings.width_px = 640;
-  settings.height_px = 480;
-  settings.rate_hz = is_emulated() ? 0.1 : 1;
-  settings.range_km = 4;
-  settings.attitude_ms = settings.position_ms = settings.picture_ms = 10'000;
-  settings.monitor_on = false;
-  configure(settings);
+  configure(monitor_settings());
   fly();
   EXPECT_EQ(service_.times_told("screen: kms /dev/dri/card0"), 1) << journal();
   EXPECT_TRUE(reported([](const auto& status) { return status["latency_ms"]["count"] > 0; }))

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <utility>
 
 #include "platform/screen.hpp"
 #include "platform/screen_output.hpp"
@@ -56,50 +57,54 @@ bool comes_to_show(std::uint32_t frame, const Weston& weston) {
   return false;
 }
 
-TEST(WestonWindow, shows_every_pixel_of_every_picture_and_tells_when) {
-  const Weston weston;
-  if (!weston.problem().empty()) GTEST_SKIP() << weston.problem();
-  ScreenDetail detail;
-  auto screen = open_at(weston, detail);
-  ASSERT_TRUE(screen) << detail.text;
-  ShownPicture picture(width, height);
-  for (std::uint32_t frame = 1; frame <= 3; ++frame) {
-    picture.draw(frame);
-    const std::int64_t before_ns = screen_time_ns();
-    ASSERT_TRUE(screen.value().present(picture.texture())) << screen.value().last_words();
-    ASSERT_TRUE(screen.value().wait_shown());
-    EXPECT_EQ(screen.value().shown().picture, frame);
-    EXPECT_GE(screen.value().shown().time_ns, before_ns);
-    EXPECT_LE(screen.value().shown().time_ns, screen_time_ns());
-    ASSERT_TRUE(comes_to_show(frame, weston));
-    EXPECT_EQ(place_of(frame + 1, weston.screenshot()).x, -1);
+class WestonWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!weston_.problem().empty()) GTEST_SKIP() << weston_.problem();
+    ScreenDetail detail;
+    auto made = open_at(weston_, detail);
+    ASSERT_TRUE(made) << detail.text;
+    screen_.emplace(std::move(made).value());
+    picture_.emplace(width, height);
   }
-  const Place place = place_of(3, weston.screenshot());
-  screen.value().show_failed();
+
+  Weston weston_;
+  std::optional<Screen> screen_;
+  std::optional<ShownPicture> picture_;  ///< of the screen's context
+};
+
+TEST_F(WestonWindow, shows_every_pixel_of_every_picture_and_tells_when) {
+  for (std::uint32_t frame = 1; frame <= 3; ++frame) {
+    picture_->draw(frame);
+    const std::int64_t before_ns = screen_time_ns();
+    ASSERT_TRUE(screen_->present(picture_->texture())) << screen_->last_words();
+    ASSERT_TRUE(screen_->wait_shown());
+    EXPECT_EQ(screen_->shown().picture, frame);
+    EXPECT_GE(screen_->shown().time_ns, before_ns);
+    EXPECT_LE(screen_->shown().time_ns, screen_time_ns());
+    ASSERT_TRUE(comes_to_show(frame, weston_));
+    EXPECT_EQ(place_of(frame + 1, weston_.screenshot()).x, -1);
+  }
+  const Place place = place_of(3, weston_.screenshot());
+  screen_->show_failed();
   bool failed = false;
   for (int wait = 0; wait < 50 && !failed; ++wait) {
-    const SeenPixels seen = weston.screenshot();
+    const SeenPixels seen = weston_.screenshot();
     failed = seen.at(place.x + width / 2, place.y + height / 2) == 0xE00000 &&
              seen.at(place.x + width / 2, place.y + 4) == 0;
   }
   EXPECT_TRUE(failed) << "no failure picture";
 }
 
-TEST(WestonWindow, takes_a_hundred_pictures_as_fast_as_they_come) {
-  const Weston weston;
-  if (!weston.problem().empty()) GTEST_SKIP() << weston.problem();
-  ScreenDetail detail;
-  auto screen = open_at(weston, detail);
-  ASSERT_TRUE(screen) << detail.text;
-  ShownPicture picture(width, height);
+TEST_F(WestonWindow, takes_a_hundred_pictures_as_fast_as_they_come) {
   for (std::uint32_t frame = 1; frame <= 100; ++frame) {
-    picture.draw(frame);
-    ASSERT_TRUE(screen.value().present(picture.texture())) << screen.value().last_words();
+    picture_->draw(frame);
+    ASSERT_TRUE(screen_->present(picture_->texture())) << screen_->last_words();
   }
-  ASSERT_TRUE(screen.value().wait_shown());
-  EXPECT_EQ(screen.value().shown().picture, 100U);
-  EXPECT_EQ(screen.value().health().faults, 0U);
-  EXPECT_TRUE(comes_to_show(100, weston));
+  ASSERT_TRUE(screen_->wait_shown());
+  EXPECT_EQ(screen_->shown().picture, 100U);
+  EXPECT_EQ(screen_->health().faults, 0U);
+  EXPECT_TRUE(comes_to_show(100, weston_));
 }
 
 }  // namespace
